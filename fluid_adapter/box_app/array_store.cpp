@@ -39,6 +39,7 @@ ArrayField::ArrayField(const ArrayBox& box)
     if (grid_.dimension == 3) return;
     index_.resize(cells_);
     std::iota(index_.begin(), index_.end(), 0);
+    // The block is the whole grid, so nothing is beyond it even where a side is cyclic.
     table_ = {index_.data(), {0, 0}, {grid_.counts[0], grid_.counts[1]}, {0, 0}};
 }
 

@@ -11,6 +11,7 @@ BoxField::BoxField(const CellGrid& grid, double density, const RankGroup& ranks,
       layers_(layers),
       mass_(density * grid.spacing[0] * grid.spacing[1] * grid.spacing[2]),
       p_(owned_cells()) {
+    // A single rank holds every grain alone: nothing is summed.
     if (ranks.parallel()) shared_ = std::make_unique<SharedGrains>(ranks);
 }
 

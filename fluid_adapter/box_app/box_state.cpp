@@ -69,10 +69,12 @@ class RankFile {
 
     /// What the rank has of an array over these layers of cells.
     void read(const MemoryRows::Array& array, const Layers& own, double* values) {
+        // Faces between two ranks are in the files of both, with the same values.
         const Layers to = layers_of(array, own), from = layers_of(array, cells_);
         const std::size_t first = std::max(to.first, from.first),
                           end = std::min(to.end(), from.end());
         if (array.width == 0)
+            // A single value is the same in all files.
             file_.read(place_, values, sizeof(double));
         else if (first < end)
             file_.read(place_ + (first - from.first) * array.width * sizeof(double),
@@ -95,6 +97,7 @@ Header header_of(const BoxField& field, const BoxFluidStep& step) {
 
 /// Together they have all layers of this rank, from the same steps.
 void demand_fit(const std::vector<RankFile>& files, const Header& own) {
+    // Counted, not compared: the ranks that wrote a state had different layers.
     std::int64_t found = 0;
     for (const RankFile& file : files) {
         const Header& other = file.header();
@@ -134,6 +137,7 @@ void read_state(std::vector<PieceReader>& of_ranks, BoxField& field, BoxFluidSte
     };
     for (double* u : field.velocities()) read(u, 0);
     read(field.pressure().data(), 0);
+    // Before what the step remembers, which contains its own p where it keeps one.
     step.take_pressure();
     step.visit_memory(read);
 }

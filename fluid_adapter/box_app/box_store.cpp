@@ -50,6 +50,7 @@ void set_transport(BoxFluid& fluid, const Settings& settings) {
                       "fluid.transport_scheme = " + settings.text("fluid.transport_scheme") +
                           " is not known by fluid.program = box; use Gauss limitedLinearV 1, "
                           "linear, LUST grad(U) or linearUpwind grad(U)");
+    // 2/k is needed, and k may be 0: at least OpenFOAM's SMALL, as in makeFluidStep.cpp.
     fluid.limiter = std::max(limiter, 1e-15);
 }
 
@@ -72,6 +73,7 @@ void LayerFields::read_pressure(double* p) {
 }
 
 void LayerFields::write_pressure(const double* p, bool floating) {
+    // Where no side fixes p it is shown relative to cell (0, 0, 0).
     field_.set_pressure(p, floating ? rows_.first(p) : 0.0);
 }
 
@@ -102,6 +104,7 @@ BoxStore::BoxStore(const Settings& settings, const RankGroup& ranks,
       solid_(is_wanted(settings, "solid")),
       vorticity_(is_wanted(settings, "vorticity")) {
     auto fields = std::make_unique<LayerFields>(field_, rows_, side_motions(settings));
+    // The step owns them; sides are set through this pointer.
     fields_ = fields.get();
     step_ = std::make_unique<BoxFluidStep>(fluid_of(grid_, run_, settings), box_rows(),
                                            std::move(fields), ranks_,

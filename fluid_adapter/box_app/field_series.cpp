@@ -27,6 +27,7 @@ class SharedFile {
         for (std::size_t done = 0; good_ && done < bytes;) {
             const ssize_t more = ::pwrite(number_, static_cast<const char*>(from) + done,
                                           bytes - done, static_cast<off_t>(place + done));
+            // pwrite may write a part, or be interrupted before it has written anything.
             if (more < 0 && errno == EINTR) continue;
             good_ = more > 0;
             if (good_) done += static_cast<std::size_t>(more);
@@ -42,6 +43,7 @@ class SharedFile {
 
 /// All but the values.
 bool write_frame(const std::filesystem::path& file, const SliceLayout& layout) {
+    // Places between are left open: the ranks write their values there.
     SharedFile out(file, O_CREAT | O_TRUNC);
     out.write(0, layout.begin.data(), layout.begin.size());
     for (std::size_t array = 0; array < layout.places.size(); ++array) {
@@ -69,6 +71,8 @@ bool write_own(const std::filesystem::path& file, const SliceLayout& layout,
                     for (int c = 0; c < components; ++c)
                         rows.push_back(static_cast<float>(
                             fields[array].value(layers.cell(at[0], at[1], at[2]), at, c)));
+            // x fastest, then y, then z, while layers have z before y: of one z the rank's rows
+            // follow each other.
             const std::size_t cell =
                 counts[0] * (layers.first + static_cast<std::size_t>(counts[1]) * at[2]);
             out.write(layout.values(array) + cell * components * sizeof(float), rows.data(),
@@ -104,9 +108,12 @@ void FieldSeries::write(const StoredField& field, const RankGroup& ranks,
     const SliceLayout layout = layout_of(field.grid(), fields);
     const bool first = ranks.rank() == 0;
     std::error_code failed;
+    // Rank 0 makes the file, with everything but values; `all` keeps the others waiting until it is
+    // there, and makes all of them throw if one cannot write.
     if (first) std::filesystem::create_directories(folder_, failed);
     demand(ranks.all(!first || (!failed && write_frame(part, layout))), part);
     demand(ranks.all(write_own(part, layout, field, fields)), part);
+    // Under its name only when it is complete
     if (first) std::filesystem::rename(part, file, failed);
     demand(ranks.all(!failed), part);
     if (first) write_slice_series(folder_ / "fields.pvd", {"fields"}, step_);

@@ -17,6 +17,7 @@ InterpolatedVelocity::InterpolatedVelocity(FluidField& field, BoxRows& rows,
     std::vector<double> edges(4 * layer), beyond(4 * layer);
     for (int component = 0; component < 3; ++component) {
         auto to = edges.begin();
+        // The edges that BoxRows::exchange asks for
         for (const int j : {0, 1, count_ - 2, count_ - 1})
             to = std::copy_n(u_[component] + j * layer, layer, to);
         rows.exchange(edges.data(), beyond.data());
@@ -27,6 +28,7 @@ InterpolatedVelocity::InterpolatedVelocity(FluidField& field, BoxRows& rows,
 
 double InterpolatedVelocity::divergence(const CellIndex& at) const {
     double sum = 0.0;
+    // Of the flux that steps have: S of box_step/row_heights.hpp weighs by volumes.
     for (int axis = 0; axis < 3; ++axis) sum += derivative(axis, axis, at, Weight::volume);
     return sum;
 }
@@ -35,11 +37,13 @@ Vec3 InterpolatedVelocity::curl(const CellIndex& at) const {
     const auto d = [&](int component, int axis) {
         return derivative(component, axis, at, Weight::distance);
     };
+    // (dw/dy - dv/dz, du/dz - dw/dx, dv/dx - du/dy)
     return {d(2, 1) - d(1, 2), d(0, 2) - d(2, 0), d(1, 0) - d(0, 1)};
 }
 
 double InterpolatedVelocity::derivative(int component, int axis, const CellIndex& at,
                                         Weight weight) const {
+    // Gauss: the sum of value times area over both faces, over the volume
     return (on_face(component, axis, 1, at, weight) - on_face(component, axis, 0, at, weight)) /
            grid_.size(axis, at[axis]);
 }
@@ -59,10 +63,12 @@ double InterpolatedVelocity::on_face(int component, int axis, int end, const Cel
     const double here = in_cell(component, at);
     const bool beyond = other[axis] < 0 || other[axis] >= grid_.counts[axis];
     const Side side = grid_.sides[axis][end];
+    // No gradient on a free side; a wall or an inflow has the value it holds.
     if (beyond && side == Side::open) return here;
     if (beyond && side == Side::wall) return sides_[component][2 * axis + end][on_side(axis, at)];
     const int wrapped = grid_.wrapped(axis, other[axis]);
     double h = grid_.size(axis, at[axis]), h_other = grid_.size(axis, wrapped);
+    // By volumes the larger cell counts for more; by distances the nearer, that is the smaller one.
     if (weight == Weight::distance) std::swap(h, h_other);
     // Beyond a cyclic end along y lie layers that were exchanged, if they are not the own ones.
     if (axis != 1) other[axis] = wrapped;

@@ -33,6 +33,7 @@ BoxOperators::BoxOperators(const SeparableOperator& velocity, const SeparableOpe
       none_(layers_.nx, 0.0),
       faces_{Layer(layers_.nx + 1), below_, below_, none_, none_} {
     for (int axis = 0; axis < layers_.components(); ++axis) {
+        // A change is zero where a side prescribes u: its reader has no values on the sides.
         velocity_.emplace_back(velocity, rows, &sides[axis]);
         change_.emplace_back(velocity, rows);
     }
@@ -73,6 +74,7 @@ double BoxOperators::volume() const {
 /// Of a row of layer j, whose values these are.
 void BoxOperators::add_products(int j, const double* image, const double* d, const double* r,
                                 ImageProducts& products) const {
+    // Weighted by volumes: in this product D G, Q and L are symmetric.
     const double volume = layers_.heights.relative(j);
     const int nx = layers_.nx;
     products.direction += volume * dot_row(nx, image, d);
@@ -93,6 +95,7 @@ void BoxOperators::add_impulses(double sign, double step, const double* p, const
     p_.begin(p);
     for_rows([&](int j, int k, std::size_t c) {
         for (int axis = 0; axis < u.size(); ++axis) {
+            // u += sign f, then u -= sign step G p
             add_row(layers_.nx, sign, f[axis].data() + c, u[axis] + c);
             differences().correct(axis, j, k, sign * step, p_, u[axis] + c, u[axis] + c);
         }
@@ -106,6 +109,7 @@ void BoxOperators::gradient(double step, const double* p, const VelocityPointers
 
 void BoxOperators::direction(double step, const double* z, double beta, double* d,
                              const VelocityPointers& u) {
+    // d becomes z + beta d as it is read, so that d and its gradient are one pass.
     p_.begin(d, [this, z, beta, d](int j) {
         const std::size_t c = layers_.row(j, 0);
         next_direction(static_cast<int>(layers_.layer()), z + c, beta, d + c);
@@ -117,6 +121,7 @@ void BoxOperators::direction(double step, const double* z, double beta, double* 
 void BoxOperators::gradient_rows(double step, const VelocityPointers& u) {
     for_rows([&](int j, int k, std::size_t c) {
         for (int axis = 0; axis < u.size(); ++axis)
+            // 0 - step G p
             differences().correct(axis, j, k, step, p_, none_.data(), u[axis] + c);
     });
 }
@@ -128,6 +133,7 @@ ViscousSums BoxOperators::viscous_residual(double share, int axis, const double*
     rows.begin(u);
     ViscousSums sums;
     for_rows([&](int j, int k, std::size_t c) {
+        // r = share L u - f; its sums are taken while the row is in cache.
         differences().laplacian(j, k, share, rows, r + c);
         add_row(nx, -1.0, f + c, r + c);
         std::copy_n(r + c, nx, again + c);
@@ -143,6 +149,7 @@ ImageProducts BoxOperators::viscous_image(double share, int axis, const double* 
     rows.begin(v);
     ImageProducts products;
     for_rows([&](int j, int k, std::size_t c) {
+        // Without `image` only the products count, and each row may overwrite the last.
         double* out = image ? image + c : image_.data();
         differences().laplacian(j, k, -share, rows, out);
         add_row(layers_.nx, 1.0, d + c, out);
@@ -160,6 +167,7 @@ void BoxOperators::divergence_of(int j, double share, std::vector<RowReader>& u,
         const double* below = u[1].row(j - 1, k);
         const double* across = u[1].row(j, k);
         const double* above = u[1].row(j + 1, k);
+        // share ((u_{+1} - u_{-1})/(2 hx) + (S.v_{+1} - S.v)/h_j + (w_{+1} - w_{-1})/(2 hz))
         central_divergence_row(nx, 0.5 * share / layers_.hx, here - 1, here + 1, y, below, across,
                                above, out);
         if (layers_.in_space())
@@ -173,10 +181,12 @@ double BoxOperators::flux_residual(double step, const double* p, const VelocityP
                                    double* r) {
     begin_velocity(u, change);
     begin_smoothing(excess.w, p);
+    // Below layer 0; from then on the faces above a layer become those below the next.
     kept_below(0, excess, faces_.below.data());
     double sum = 0.0;
     for (int j = 0; j < layers_.ny; ++j) {
         double* out = r + layers_.row(j, 0);
+        // r = -D u - div(kept e) - step Q p
         divergence_of(j, -1.0, velocity_, out);
         add_divergence_of_excess(j, excess, out);
         add_smoothing(j, -step, out);
@@ -198,6 +208,7 @@ void BoxOperators::add_divergence_of_excess(int j, const ExcessFlux& excess, dou
                            -1.0 / layers_.heights.size(j), faces_.below.data() + row,
                            faces_.above.data() + row, out);
         if (!layers_.in_space()) break;
+        // The faces in front of a row are those behind the next.
         faces_.behind.swap(faces_.before);
         kept_behind(j, k + 1, excess, faces_.before.data());
         subtract_difference(nx, 1.0 / layers_.hz, faces_.behind.data(), faces_.before.data(), out);
@@ -225,6 +236,7 @@ void BoxOperators::kept_along(int j, int k, const ExcessFlux& excess, double* fa
     const double* w = w_.row(j, k);
     const int nx = layers_.nx;
     kept_row(nx + 1, excess.k, w - 1, w, excess.e[0] + layers_.face_row(0, j, k), face);
+    // On a side e is the flux minus the boundary value of this window: it is not carried over.
     if (!layers_.periodic_x) face[0] = face[nx] = 0.0;
 }
 
@@ -252,6 +264,7 @@ ImageProducts BoxOperators::flux_image(double step, const double* w, const doubl
     ImageProducts products;
     for (int j = 0; j < layers_.ny; ++j) {
         double* out = image ? image + layers_.row(j, 0) : image_.data();
+        // p + alpha d changes u by alpha u of this direction, hence r by -alpha (D u + step Q d).
         divergence_of(j, 1.0, change_, out);
         add_smoothing(j, step, out);
         for (int k = 0; k < layers_.nz; ++k, out += layers_.nx)
@@ -263,6 +276,7 @@ ImageProducts BoxOperators::flux_image(double step, const double* w, const doubl
 void BoxOperators::begin_smoothing(const double* w, const double* p) {
     w_.begin(w);
     p_.begin(p);
+    // q of the layers -1 and 0; below_, here_ and above_ move up with the layers.
     second_difference_across(-1, below_);
     second_difference_across(0, here_);
 }
@@ -277,6 +291,7 @@ const double* BoxOperators::second_difference_along(int j, int k) {
 
 /// q along y of layer j.
 void BoxOperators::second_difference_across(int j, Layer& q) {
+    // q = w h_j ((p_{+1} - p)/d_{+1} - (p - p_{-1})/d), of equal rows w d2 p
     const RowShares shares = layers_.heights.over_distances(j, layers_.heights.size(j));
     for (int k = 0; k < layers_.nz; ++k) {
         const double* below = p_.row(j - 1, k);
@@ -297,6 +312,7 @@ void BoxOperators::second_difference_between(int j) {
 
 /// out += share Q p of layer j; layers in ascending order.
 void BoxOperators::add_smoothing(int j, double share, double* out) {
+    // Q p = d2 q/(4 h2) along x and z; along y the divergence of (q_{+1} - q)/(4d), over h_j d
     const double x = 0.25 * share / (layers_.hx * layers_.hx);
     const double z = 0.25 * share / (layers_.hz * layers_.hz);
     const RowShares y = layers_.heights.over_volumes(j, 0.25 * share);
@@ -320,6 +336,7 @@ void BoxOperators::update_excess(double step, const double* p, const ExcessFlux&
     for (int j = 0; j <= layers_.ny; ++j) {
         double* faces = excess.e[1] + layers_.face_row(1, j, 0);
         kept_below(j, excess, faces);
+        // e += step (q_j - q_{j-1})/(4d) on the faces below layer j, up to those above the last one
         correct(static_cast<int>(layers_.layer()), -0.25 * step / layers_.heights.distance(j),
                 below_.data(), here_.data(), faces, faces);
         if (j == layers_.ny) break;

@@ -16,6 +16,7 @@ FaceValues values_on_faces(const BoxLayers& layers) {
 
 VelocityOnSides at_rest(const BoxLayers& layers) {
     VelocityOnSides sides;
+    // Of the sides normal to x, y and z (side_values.hpp); in the plane there are none normal to z.
     const std::size_t sizes[] = {
         static_cast<std::size_t>(layers.ny) * layers.nz, layers.layer(),
         layers.in_space() ? static_cast<std::size_t>(layers.nx) * layers.ny : 0};
@@ -40,11 +41,14 @@ BoxStep::BoxStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows)
       projection_(layers_, fluid.pressure, *rows_, u_, excess_, held_),
       transport_(fluid_, layers_, u_, excess_, held_),
       forces_(fluid_, layers_, side_velocity_) {
+    // -laplacian, whatever dt is: factorised once. That of viscosity waits for the first dt.
     pressure_.factorise({0.0, 1.0});
     for (int axis = 0; axis < layers_.components(); ++axis) {
         viscous_.emplace_back(fluid.velocity, rows_->pencils());
+        // Readers know what sides prescribe; the solves take it to be zero (add_side_velocity).
         u_.emplace_back(fluid.velocity, *rows_, &side_velocity_[axis]);
     }
+    // phi1 of the last window; 0 counts for nothing where a run begins.
     if (fluid.second_order) held_.last = values_on_faces(layers_);
 }
 
@@ -79,6 +83,7 @@ FluxReport BoxStep::hold_solenoidal_flux(double dt) {
 
 void BoxStep::transport(double dt, ImpulsesOfWindow* impulses) {
     begin_velocity(values_of_velocity());
+    // Of u1, which the readers still have where transport has overwritten a layer.
     if (impulses) begin_impulses(*impulses);
     transport_.begin(false);
     for (int j = 0; j < layers_.ny; ++j) {
@@ -89,6 +94,7 @@ void BoxStep::transport(double dt, ImpulsesOfWindow* impulses) {
 
 /// Layers are read before they are written, so u may be the result.
 BoxStep::Force BoxStep::play(const VelocityStage& stage) {
+    // Before the pass, since the result may be u itself.
     Force force = convective_force(stage.u);
     if (stage.viscous) {
         const Force viscous = forces_.viscous(stage.u);
@@ -116,6 +122,7 @@ void BoxStep::add_impulses(const VelocityStage::Values& u2, ImpulsesOfWindow& im
 void BoxStep::begin_impulses(ImpulsesOfWindow& impulses) {
     impulses.f.resize(layers_.components(), cells());
     impulses.sum_f = {};
+    // Of the last window: p^n is in the step's own array.
     p_.begin(pressure());
 }
 
@@ -127,6 +134,7 @@ void BoxStep::add_impulses(int j, ImpulsesOfWindow& impulses) {
         for (int axis = 0; axis < layers_.components(); ++axis) {
             double* f = impulses.f[axis].data() + layers_.row(j, k);
             double* u = velocity(axis) + layers_.row(j, k);
+            // f = dt nu L u1, then u2 + f - dt G p
             differences.laplacian(j, k, fluid_.viscosity * dt, u_[axis], f);
             impulses.sum_f[axis] += layers_.heights.relative(j) * sum_row(layers_.nx, f);
             add_row(layers_.nx, 1.0, f, u);
@@ -161,6 +169,7 @@ double windows_to_the_middle(bool begins) {
 
 FluxReport BoxStep::project_and_hold_middle(double dt, bool begins) {
     held_.resize(layers_);
+    // The projection passes each row of phi1 to hold_middle while it has it in cache.
     held_.extrapolated = windows_to_the_middle(begins);
     const FluxReport report = project(dt);
     held_.extrapolated.reset();
@@ -172,16 +181,19 @@ void BoxStep::hold_middle_flux(bool begins) {
     for (int axis = 0; axis < layers_.components(); ++axis) {
         std::vector<double>& last = held_.last[axis];
         std::swap(held_.flux[axis], last);  // phi1 is the next window's last flux
+        // flux = 3/2 phi1 - 1/2 of the last window's, which flux has after the swap
         if (begins) held_.flux[axis] = last;
         if (!begins) combine(last.size(), -0.5, held_.flux[axis].data(), 1.5, last.data());
     }
 }
 
 void BoxStep::diffuse(double dt, const SeparableSolve::LayerWork& take) {
+    // (1 - dt nu laplacian) u3 = u2
     if (factorised_for_ != dt)
         for (SeparableSolve& solve : viscous_) solve.factorise({1.0, fluid_.viscosity * dt});
     factorised_for_ = dt;
     add_side_velocity(dt);
+    // The last component hands over its layers: a layer is complete when that is.
     for (std::size_t axis = 0; axis + 1 < viscous_.size(); ++axis) viscous_[axis].solve();
     viscous_.back().solve([](int) {}, take);
 }
@@ -191,6 +203,8 @@ void BoxStep::diffuse(double dt, const SeparableSolve::LayerWork& take) {
 void BoxStep::add_side_velocity(double dt) {
     const BoxLayers& l = layers_;
     const auto across = [&](double h) { return 2.0 * fluid_.viscosity * dt / (h * h); };
+    // The side is half a cell from the centre, in rows of any height: the flux nu (u_b - u)/(h/2),
+    // over h, is nu 2 (u_b - u)/h2.
     const double across_x = across(l.hx), across_z = across(l.hz);
     const double at_bottom = across(l.heights.size(0)), at_top = across(l.heights.size(l.ny - 1));
     for (int axis = 0; axis < l.components(); ++axis) {
@@ -221,6 +235,7 @@ BoxStep::Force BoxStep::convective_force() {
 }
 
 BoxStep::Force BoxStep::convective_force(const VelocityStage::Values& u) {
+    // Without a held flux only e is there: on a side phi1 is the boundary value of u plus e.
     return forces_.convective(u, held_.held ? held_.flux : excess_, !held_.held);
 }
 

@@ -16,6 +16,8 @@ template <bool space>
     constexpr double tiny = 1e-300;  // avoids 0/0: no difference, no correction
 #pragma GCC ivdep
     for (int i = 0; i < count; ++i) {
+        // d across the face; d' across the next face upstream, times the ratio of the distances of
+        // centres, here to there.
         const bool up = flux[i] > 0.0;
         const auto across = [i](const AcrossFaces& q) { return q.high[i] - q.low[i]; };
         const auto upstream = [&](const AcrossFaces& q) {
@@ -24,12 +26,15 @@ template <bool space>
             return up ? behind : ahead;
         };
         const double du = across(u), dv = across(v), dw = space ? across(w) : 0.0;
+        // r = d . d'/d . d over all components: one limiter, whatever the axes are
         double along = du * upstream(u) + dv * upstream(v), square = du * du + dv * dv;
         if (space) along += dw * upstream(w), square += dw * dw;
         const double r = along / (square + tiny);
+        // clamp(2 r/k, 0, 1), by selections that the compiler can vectorise
         double l = two_by_k * r;
         l = l < 1.0 ? l : 1.0;
         l = l > 0.0 ? l : 0.0;
+        // From the upwind centre towards the other one: u_f = u_upwind +- l s d
         const double share = up ? face.low * l : -face.high * l;
         carried_u[i] = flux[i] * ((up ? u.low[i] : u.high[i]) + share * du);
         carried_v[i] = flux[i] * ((up ? v.low[i] : v.high[i]) + share * dv);
@@ -63,6 +68,8 @@ void carry_blended(int count, double central, const FacePlace& face, const doubl
                    const double* __restrict u0, const double* __restrict u1,
                    const double* __restrict u2, const double* __restrict u3,
                    double* __restrict carried) {
+    // Central: u_C + s (u_D - u_C), a mean on equal cells. Biased: u_C + s (d + d')/2, half of the
+    // sum since the gradient at C is the mean of those on either side of it.
     const double mean = 0.5 * central, upwind = 1.0 - central;
     const auto [behind, ahead, low, high, equal] = face;  // equal: fewer operations
     for (int i = 0; i < count; ++i) {

@@ -30,6 +30,7 @@ void MomentumTransport::carry(int axis, int j, int k, Carried& carried, std::siz
     CarriedRows to(components);
     for (int c = 0; c < components; ++c) {
         RowReader& rows = u_[c];
+        // Cells -2, -1 are on the low side of the faces, 0 and 1 on the high side.
         const auto at = [&](int n) {
             return axis == 0   ? rows.row(j, k) + n
                    : axis == 1 ? rows.row(j + n, k)
@@ -48,6 +49,7 @@ void MomentumTransport::carry(int axis, int j, int k, Carried& carried, std::siz
         blended_flux(count, *fluid_.central, place, flux, u, to);
     else
         convective_flux(count, 2.0 / fluid_.limiter, place, flux, u, to);
+    // On a side of the box nothing is interpolated: the mean with the image is the boundary value.
     const auto at_side = [&](int i) {
         for (int c = 0; c < components; ++c)
             to[c][i] = 0.5 * flux[i] * (u[c].low[i] + u[c].high[i]);
@@ -68,6 +70,7 @@ void MomentumTransport::diffuse(int axis, int j, int k, Carried& carried, std::s
         const double* low = axis == 0   ? high - 1
                             : axis == 1 ? u_[c].row(j - 1, k)
                                         : u_[c].row(j, k - 1);
+        // carried -= nu (high - low)/d; on a side d = h, the distance of the image.
         subtract_difference(count, fluid_.viscosity / distance, low, high,
                             carried[c].data() + first);
     }
@@ -86,6 +89,7 @@ void MomentumTransport::carry_below(int j) {
 void MomentumTransport::carry_row(int j, int k) {
     carry(0, j, k, along_, 0);
     if (viscous_) diffuse(0, j, k, along_, 0);
+    // Row 0 carries the faces behind it as well; later rows have them from the row before.
     for (int face = k == 0 ? 0 : k + 1; layers_.in_space() && face <= k + 1; ++face) {
         behind_.swap(before_);
         carry(2, j, face, before_, 0);
@@ -99,6 +103,8 @@ void MomentumTransport::begin(bool viscous) {
 }
 
 void MomentumTransport::advance(int j, double dt, const VelocityPointers& u) {
+    // What was above layer j - 1 is below layer j. Layers up to j + 2 are read by now, so that the
+    // caller may overwrite layer j.
     below_.swap(above_);
     carry_below(j + 1);
     const int nx = layers_.nx;
@@ -107,6 +113,7 @@ void MomentumTransport::advance(int j, double dt, const VelocityPointers& u) {
         for (int c = 0; c < u.size(); ++c) {
             const double *across = along_[c].data(), *below = below_[c].data() + k * nx;
             double* out = u[c] + layers_.row(j, k);
+            // u2 = u1 - dt ((F_right - F_left)/hx + (F_above - F_below)/h_j), and the same along z
             advance_row(nx, u_[c].row(j, k), -dt / layers_.hx, across, across + 1,
                         -dt / layers_.heights.size(j), below, above_[c].data() + k * nx, out);
             if (layers_.in_space())
@@ -126,12 +133,15 @@ void MomentumTransport::play(int j, const VelocityStage& stage) {
             const double *across = along_[c].data(), *below = below_[c].data() + k * nx;
             const StageRows rows{stage.old,          stage.fresh,          stage.rate,
                                  stage.v[c] + first, stage.now[c] + first, stage.before[c] + first};
+            // velocity_stage.hpp has the formula. In space the part of z is subtracted from the
+            // result, with the share `fresh` of dt L(u).
             stage_row(nx, rows, u_[c].row(j, k), -stage.dt / layers_.hx, across, across + 1,
                       -stage.dt / layers_.heights.size(j), below, above_[c].data() + k * nx,
                       result_.data());
             if (layers_.in_space())
                 subtract_difference(nx, stage.fresh * stage.dt / layers_.hz, behind_[c].data(),
                                     before_[c].data(), result_.data());
+            // By way of a row of its own, since the result may be one of the inputs.
             std::copy(result_.begin(), result_.end(), stage.result[c] + first);
             if (!stage.copy.empty())
                 std::copy(result_.begin(), result_.end(), stage.copy[c] + first);

@@ -28,6 +28,7 @@ FluxReport PressureProjection::project(SeparableSolve& pressure, const VelocityP
                                        double dt, double k) {
     kept_ = k;
     begin(pressure, u, dt);
+    // One layer beyond either end: e on the faces there needs v1 on both sides of them.
     for (int j = -1; j <= layers_.ny; ++j) correct_layer(j, dt, u);
     return check_.over(dt);
 }
@@ -35,6 +36,7 @@ FluxReport PressureProjection::project(SeparableSolve& pressure, const VelocityP
 FluxReport PressureProjection::hold_solenoidal_flux(SeparableSolve& pressure,
                                                     const VelocityPointers& u, double dt) {
     held_.resize(layers_);
+    // Here all of e counts: the flux is to be the nearest to S.u + e.
     kept_ = 1.0;
     begin(pressure, u, dt);
     const auto at = [&](int axis, int j) {
@@ -58,9 +60,11 @@ void PressureProjection::begin(SeparableSolve& pressure, const VelocityPointers&
         for (int axis = 0; axis < u.size(); ++axis) u_[axis].begin(u[axis]);
     };
     begin_velocity();
+    // Layer 0 finds the faces below it, each other layer those above the one before.
     flux(1, 0, flux_below_.data());
     pressure.solve([&](int j) { right_hand_side(j, dt, pressure.values() + layers_.row(j, 0)); },
                    [](int) {});
+    // From the first layer again: the solve has read u for the divergence.
     begin_velocity();
     p_.begin(pressure.values());
     check_.begin();
@@ -72,6 +76,7 @@ void PressureProjection::flux(int axis, int j, double* faces) {
     const int rows = axis == 2 ? layers_.nz + 1 : layers_.nz;
     for (int k = 0; k < rows; ++k, faces += layers_.faces_of_row(axis)) {
         const bool side = axis == 1 ? layers_.side_below(j) : axis == 2 && layers_.side_behind(k);
+        // With k = 0 a side has the mean with the image, which is the boundary value of u.
         face_flux(layers_, axis, j, k, side ? 0.0 : kept_, u_[axis], excess_, faces);
         if (axis != 0 || layers_.periodic_x) continue;
         const double* u = u_[0].row(j, k);
@@ -125,6 +130,7 @@ void PressureProjection::projected(int axis, int j, double dt, double* faces) {
 void PressureProjection::correct_layer(int j, double dt, const VelocityPointers& u) {
     const int nx = layers_.nx, nz = layers_.nz;
     correct_across(j, dt);
+    // Before correct_within, which overwrites the fluxes of layer j - 1 along x and z.
     if (j >= 1)
         check(j - 1, flux_x_.data(), flux_below_.data(), flux_above_.data(),
               layers_.in_space() ? flux_z_.data() : nullptr);

@@ -22,6 +22,7 @@ void RowDifferences::correct(int axis, int j, int k, double step, RowReader& p, 
     const int nx = layers.nx;
     const double* below = p.row(j - 1, k);
     const double* here = p.row(j, k);
+    // in - step (p_{+1} - p_{-1})/(2h); along y the mean of both slopes (row_heights.hpp)
     if (axis == 0)
         return turbidite::correct(nx, 0.5 * step / layers.hx, here - 1, here + 1, in, out);
     if (axis == 2)

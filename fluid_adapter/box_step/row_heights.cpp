@@ -21,6 +21,8 @@ RowHeights::RowHeights(const AxisOperator& axis, const BoxRows& rows)
 }
 
 FacePlace RowHeights::face(int j) const {
+    // The four rows around the face, by their heights: distances of rows whose heights differ in
+    // the last bit may be equal, and the short form is not theirs.
     if (equal_to_both(j - 1) && equal_to_both(j)) return {};
     const double d = distance(j);
     return {d / distance(j - 1), d / distance(j + 1), 0.5 * size(j - 1) / d, 0.5 * size(j) / d,
@@ -34,6 +36,7 @@ RowShares RowHeights::volume_shares(int j) const {
 }
 
 ThreeRows RowHeights::central_difference(int j, double share) const {
+    // share (S.v_{+1} - S.v)/h_j, S.v at the faces above and below row j
     const double h = size(j), y = 0.5 * share / h;
     if (equal_to_both(j)) return {-y, 0.0, y, true};
     // S.v = (h_{-1} v_{-1} + h v)/(2d)

@@ -52,6 +52,7 @@ void RowReader::look_outside(const double* values) {
 /// Fills layer `to` of outside with the image of layer `from` of edges beyond side 2 (bottom) or 3.
 void RowReader::mirror(int from, int to, int side) {
     const std::size_t n = grid_.layer();
+    // The image of row 0 is row -1, that of row 1 row -2; at the top alike.
     const double factor = mirrored(side == 2 ? grid_.y.lower : grid_.y.upper);
     for (std::size_t i = 0; i < n; ++i) outside_[to * n + i] = factor * edges_[from * n + i];
     for (std::size_t i = 0; sides_ && i < n; ++i) outside_[to * n + i] += 2.0 * (*sides_)[side][i];
@@ -64,10 +65,13 @@ double RowReader::on_side(int side, int j, int k) const {
 
 void RowReader::load(int j) {
     const int nx = grid_.x.cells, ny = rows_.count();
+    // Layers at the edges were changed by `begin`.
     if (change_ && !at_edge(j)) change_(j);
+    // -2, -1, n, n + 1 are 0, 1, 2, 3 of outside.
     const std::size_t outside = j < 0 ? beyond + j : beyond + j - ny;
     const double* from = own(j) ? values_ + static_cast<std::size_t>(j) * grid_.layer()
                                 : outside_.data() + outside * grid_.layer();
+    // The slot of layer j - kept, which is no longer valid
     PaddedLayer& layer = slots_[(j + beyond) % kept];
     for (int k = 0; k < grid_.z.cells; ++k) {
         std::copy_n(from + static_cast<std::size_t>(k) * nx, nx, layer.row(k));
@@ -85,6 +89,7 @@ void RowReader::extend(double* row, int j, int k) const {
         row[nx + 1] = row[1];
         return;
     }
+    // u_{-1} = f u_0 + 2 u_b, u_{-2} = f u_1 + 2 u_b with f = +-1 (side_values.hpp)
     const double left = mirrored(grid_.x.lower), right = mirrored(grid_.x.upper);
     const double twice_left = 2.0 * on_side(0, j, k), twice_right = 2.0 * on_side(1, j, k);
     row[-1] = left * row[0] + twice_left;

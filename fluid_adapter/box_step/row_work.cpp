@@ -8,6 +8,7 @@ namespace turbidite {
 TURBIDITE_ROW_WORK
 void mean_flux(int count, RowShares s, const double* __restrict low, const double* __restrict high,
                double kept, const double* __restrict extra, double* __restrict face) {
+    // Between equal cells the mean; one half is exact, so that both forms give the same bits.
     const bool equal = s.equal;
     for (int i = 0; i < count; ++i) {
         const double mean = equal ? s.low * (low[i] + high[i]) : s.low * low[i] + s.high * high[i];
@@ -103,6 +104,7 @@ void central_divergence_row(int count, double x, const double* __restrict left,
                             const double* __restrict right, const ThreeRows& y,
                             const double* __restrict below, const double* __restrict here,
                             const double* __restrict above, double* __restrict out) {
+    // Of equal rows `middle` is zero and low = -high.
     const auto [low, middle, high, equal] = y;
     for (int i = 0; i < count; ++i)
         out[i] = x * (right[i] - left[i]) +
@@ -137,6 +139,7 @@ void add_differences(int count, double x, const double* __restrict left,
                      const double* __restrict below, const double* __restrict here_y,
                      const double* __restrict above, double* __restrict out) {
     const bool equal = s.equal;
+    // What s.low (below - here) + s.high (above - here) takes of `here`
     const double here = -s.low - s.high;
     for (int i = 0; i < count; ++i) {
         const double along = x * (left[i] - 2.0 * here_x[i] + right[i]);
@@ -157,6 +160,7 @@ TURBIDITE_ROW_WORK
 void kept_row(int count, double k, const double* __restrict w_low, const double* __restrict w_high,
               const double* e, double* out) {
     for (int i = 0; i < count; ++i) {
+        // A face keeps its excess if one of its cells is outside grains.
         const double w = w_low[i] > w_high[i] ? w_low[i] : w_high[i];
         out[i] = k * w * e[i];
     }
@@ -169,6 +173,7 @@ void add_row(int count, double share, const double* __restrict change, double* _
 
 TURBIDITE_ROW_WORK
 double sum_row(int count, const double* __restrict a) {
+    // Eight partial sums, so that the plain and the AVX2 version add in the same order.
     constexpr int lanes = 8;
     double sums[lanes] = {};
     int i = 0;

@@ -49,6 +49,7 @@ BoxForce SideForces::over_sides(PerCell per_cell) const {
 BoxForce SideForces::pressure(const double* p) const {
     return over_sides([&](int side, std::size_t, std::size_t cell, std::size_t) {
         BoxForce force{};
+        // The side pushes inwards with p at its face: that of the cell, or 0 if it is prescribed.
         force[side / 2] = (side % 2 == 0 ? 1.0 : -1.0) * at_face(fluid_.pressure, side) * p[cell];
         return force;
     });
@@ -56,12 +57,14 @@ BoxForce SideForces::pressure(const double* p) const {
 
 BoxForce SideForces::convective(const Velocity& u, const FaceValues& flux, bool excess) const {
     return over_sides([&](int side, std::size_t at, std::size_t cell, std::size_t face) {
+        // u at the face: u_b where it is prescribed (share 0), otherwise that of the cell (share 1)
         const double share = at_face(fluid_.velocity, side);
         BoxForce held{};
         for (std::size_t c = 0; c < u.size(); ++c)
             held[c] = share * u[c][cell] + sides_[c][side][at];
         const int axis = side / 2;
         const double through = excess ? held[axis] + flux[axis][face] : flux[axis][face];
+        // Momentum carried in by the flux through the face, u phi1
         const double inward = side % 2 == 0 ? through : -through;
         return BoxForce{inward * held[0], inward * held[1], inward * held[2]};
     });
@@ -74,6 +77,7 @@ BoxForce SideForces::viscous(const Velocity& u) const {
                           : layers_.hz;
     };
     return over_sides([&](int side, std::size_t at, std::size_t cell, std::size_t) {
+        // u_{-1} - u_0 = (f - 1) u_0 + 2 u_b
         const double difference = mirrored(end_at(fluid_.velocity, side)) - 1.0;
         const double per_length = fluid_.viscosity / across(side);
         BoxForce rate{};

@@ -9,6 +9,7 @@ namespace {
 
 /// Adds a correction of which this is the latest.
 void add(IterationResult& total, IterationResult latest) {
+    // The residual is that of the latest; iterations and breakdowns are those of all.
     latest.iterations += total.iterations;
     latest.broke_down = latest.broke_down || total.broke_down;
     total = latest;
@@ -23,6 +24,7 @@ void CoupledStep::keep_transported() {
     for (int axis = 0; axis < box_.components(); ++axis)
         std::copy_n(step_.velocity(axis), box_.size(), transported_[axis].begin());
 
+    // Transport has added f - dt G p^n (see `begin`); s of another f and p is then s + f - dt G p.
     add_impulses(-1.0, transported_);
 }
 
@@ -32,6 +34,7 @@ void CoupledStep::add_impulses(double sign, VelocityRows& u) {
 }
 
 void CoupledStep::place_grains(const Constraint& constraint) {
+    // k = 1/(1 + 4 nu dt/h2): what the excess flux of the last window still counts for
     pressure_.begin(constraint, dt_, step_.kept_excess(dt_));
 }
 
@@ -48,6 +51,7 @@ double CoupledStep::viscous_number() const {
 }
 
 bool CoupledStep::one_viscous_iteration_will_do() const {
+    // There the correction leaves a twentieth of the shortest waves (below).
     return viscous_number() <= 0.05;
 }
 
@@ -55,17 +59,21 @@ bool CoupledStep::one_viscous_iteration_will_do() const {
 /// which at most half may remain. One iteration leaves a twentieth up to nu dt/h2 = 0.05.
 IterationLimit CoupledStep::one_viscous_correction(int most) const {
     if (one_viscous_iteration_will_do()) return {1, 0.0, 0.1};
+    // A tenth of the residual, or half of 1/(8 nu dt/h2) of it where that is less.
     return {most, 0.0, std::min(0.1, 0.5 / (8.0 * viscous_number()))};
 }
 
 CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& given) {
     CoupledLimits limits = given;
     if (!limits.iterated) limits.viscosity = one_viscous_correction(given.viscosity.most);
+    // What a direction leaves of its slip adds to the flow's own, which later solves reduce.
     limits.viscosity.slip_reduction = limits.pressure.slip_reduction = slip_reduction();
     CoupledReport report;
     // Each disturbs the other: solved is what needs no iteration any more.
+    // A round ends with pressure, so that u leaves a single one nearly solenoidal.
     while (correct_viscosity(grains, limits, report) && correct_pressure(grains, limits, report))
         if (!limits.iterated) break;
+    // One iteration, where that is all that is asked for, need not reach anything.
     const auto met = [](const IterationResult& result, bool to_tolerance) {
         return !result.broke_down && (result.converged || !to_tolerance);
     };
@@ -78,6 +86,7 @@ CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& giv
 bool CoupledStep::correct_viscosity(RigidGrains& grains, const CoupledLimits& limits,
                                     CoupledReport& report) {
     IterationLimit limit = limits.viscosity;
+    // The limit holds for all corrections of this call together.
     limit.most -= report.viscosity.iterations;
     const IterationResult result = viscosity_.correct(box_, grains, limit);
     const bool first = report.corrections++ == 0;
@@ -92,6 +101,7 @@ bool CoupledStep::correct_pressure(RigidGrains& grains, const CoupledLimits& lim
     limit.most -= report.pressure.iterations;
     const IterationResult result = pressure_.correct(box_, grains, limit);
     add(report.pressure, result);
+    // Without `iterated` the slip is removed by the solve after the contacts.
     if (limits.iterated) report.slip = grains.settle();
     return result.iterations > 0;
 }
@@ -104,6 +114,7 @@ VelocityRows CoupledStep::unconstrained() {
 
 BoxStep::Force CoupledStep::viscous_force() {
     BoxForce force = viscosity_.sum(box_);
+    // sum f V_c/dt
     for (double& component : force) component *= step_.cell_volume() / dt_;
     return force;
 }

@@ -23,7 +23,7 @@ namespace turbidite {
 
 struct CoupledLimits {
     /// To the tolerances. Otherwise one iteration of pressure, and viscosity, within its limit of
-    /// iterations, to a tenth of what was missing.
+    /// iterations, to a tenth of what was missing, or less where nu dt/h2 exceeds 0.625.
     bool iterated = false;
     IterationLimit viscosity;  ///< tolerance: rms of the missing viscous acceleration [m/s2]
     IterationLimit pressure;   ///< tolerance: rms of div [1/s]
@@ -60,8 +60,8 @@ class CoupledStep {
     /// Ends the window: e becomes that of p.
     void end() { pressure_.end(box_); }
 
-    /// Momentum over rho_f of the viscous impulses in this rank's cells, per time and unit length
-    /// [m3/s2]: that of the sides, to the tolerance of viscosity.
+    /// Momentum over rho_f of the viscous impulses in this rank's cells, per time [m4/s2], in the
+    /// plane also per unit length [m3/s2]: that of the sides, to the tolerance of viscosity.
     BoxStep::Force viscous_force();
 
  private:

@@ -22,6 +22,7 @@ void RigidGrains::note(const MultiplierResult& result) {
 }
 
 void RigidGrains::combine(RigidChange& change, double keep, const RigidChange& other) const {
+    // W is linear: with W r known, W d of d = r + keep d needs no solve.
     for (int axis = 0; axis < change.u.size(); ++axis)
         for (std::size_t c = 0; c < cells_; ++c)
             change.u[axis][c] = keep * change.u[axis][c] + other.u[axis][c];
@@ -35,6 +36,7 @@ void RigidGrains::add(const RigidChange& change, double share) {
 }
 
 void RigidGrains::add_later(const RigidChange& change, double share) {
+    // Only one change can be pending: an earlier one is made first.
     velocity();
     pending_ = {share, Components<const double*>(change.u.size())};
     for (int axis = 0; axis < change.u.size(); ++axis)

@@ -12,6 +12,7 @@ void RigidPressure::begin(const Constraint& constraint, double dt, double k) {
     kept_ = k;
     residual_.resize(step_.cells());
     rigid_.u.resize(step_.layers().components(), step_.cells());
+    // w of box_operators.hpp, 0 in covered cells: faces between two carry the rigid motion alone
     outside_.assign(step_.cells(), 1.0);
     constraint.clear_covered(outside_.data());
 }
@@ -19,6 +20,7 @@ void RigidPressure::begin(const Constraint& constraint, double dt, double k) {
 IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
                                        const IterationLimit& limit) {
     const ResidualSquare square = find_residual(box, grains);
+    // rms of r = sqrt(|r|^2/volume). A single iteration needs no image: nothing reads r after it.
     return iterate(
         limit, square.sum, square.cells,
         [&](bool first, double& rz) { choose_direction(box, grains, first, rz, limit); },
@@ -44,11 +46,13 @@ double RigidPressure::precondition(const RigidGrains& grains) {
     double product = 0.0;
     step_.pressure_solve().solve(
         [&](int j) {
+            // The solver inverts -laplacian, so z of r/dt is -(1/dt) laplacian^-1 r.
             for (std::size_t c = layers.row(j, 0); c < layers.row(j + 1, 0); ++c)
                 z[c] = residual_[c] / dt_;
         },
         [&](int j) {
             for (int k = 0; k < layers.nz; ++k)
+                // Weighted by volumes, as all products (box_operators.hpp)
                 product +=
                     layers.heights.relative(j) *
                     dot_row(layers.nx, residual_.data() + layers.row(j, k), z + layers.row(j, k));
@@ -61,16 +65,20 @@ double RigidPressure::precondition(const RigidGrains& grains) {
 void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz,
                                      const IterationLimit& limit) {
     const double last = rz;
+    // beta = r.z/(r.z of the last iteration)
     rz = precondition(grains);
     const double* z = step_.pressure_solve().values();
     if (limit.most > 1) {
         later_.resize(residual_.size());
         box.direction(dt_, z, first ? 0.0 : rz / last, later_.data(), rigid_.u.pointers());
+        // A copy, since the next preconditioning overwrites z.
         direction_ = later_.data();
     } else {
         box.gradient(dt_, z, rigid_.u.pointers());
         direction_ = z;
     }
+    // Anew for each direction; carrying W(-dt G d) along as W(-dt G z) + beta W(-dt G d) would need
+    // an array more per component.
     grains.make_rigid(rigid_, limit.slip_reduction);
 }
 
@@ -86,6 +94,7 @@ ImageProducts RigidPressure::apply(BoxOperators& box, const RigidGrains& grains,
 /// p += alpha d, u += alpha W(-dt G d), r -= alpha A d.
 void RigidPressure::move(RigidGrains& grains, double alpha, bool again) {
     double* p = step_.pressure();
+    // u changes by what is rigid, so every iterate is rigid and keeps the momentum.
     for (std::size_t c = 0; c < residual_.size(); ++c) p[c] += alpha * direction_[c];
     grains.add(rigid_, alpha);
     for (std::size_t c = 0; again && c < residual_.size(); ++c) residual_[c] -= alpha * image_[c];

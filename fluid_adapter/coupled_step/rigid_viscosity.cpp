@@ -15,6 +15,7 @@ ImpulsesOfWindow& RigidViscosity::begin(double dt, double nu) {
 }
 
 const VelocityRows& RigidViscosity::impulse() {
+    // f += share r, put off by move_only until f is read
     const double share = std::exchange(pending_, 0.0);
     for (int axis = 0; share != 0.0 && axis < window_.f.size(); ++axis)
         for (std::size_t c = 0; c < residual_[axis].size(); ++c)
@@ -34,6 +35,7 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
     const ResidualSquare square = find_residual(box, grains);
     if (square.sum == 0.0) return {};
     return iterate(
+        // The rms of r/dt, an acceleration [m/s2]
         limit, square.sum, window_.dt * window_.dt * square.cells,
         [&](bool first, double& rz) { choose_direction(box, grains, first, rz, limit); },
         [&] { return apply(box, grains, limit.most > 1); },
@@ -44,6 +46,7 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
 ResidualSquare RigidViscosity::find_residual(BoxOperators& box, RigidGrains& grains) {
     residual_.resize(box.components(), box.size());
     rigid_residual_.u.resize(box.components(), box.size());
+    // Includes what is pending: unlike pressure this does not make the change as it reads.
     const VelocityPointers u = grains.velocity();
     const VelocityRows& f = impulse();
     ResidualSquare square;
@@ -62,9 +65,11 @@ ResidualSquare RigidViscosity::find_residual(BoxOperators& box, RigidGrains& gra
 /// z = W r, and d = r + beta d with W d.
 void RigidViscosity::choose_direction(const BoxOperators& box, RigidGrains& grains, bool first,
                                       double& rz, const IterationLimit& limit) {
+    // The first time find_residual has left a copy of r there.
     if (!first) rigid_residual_.u = residual_;
     grains.make_rigid(rigid_residual_, limit.slip_reduction);
     if (first) {
+        // d = r, so W d = W r; r.z comes with the image (ImageProducts::step).
         std::swap(rigid_direction_, rigid_residual_);
         direction_ = nullptr;
         return;
@@ -74,6 +79,7 @@ void RigidViscosity::choose_direction(const BoxOperators& box, RigidGrains& grai
     for (int axis = 0; axis < residual_.size(); ++axis)
         rz += box.dot(residual_[axis], rigid_residual_.u[axis]);
     grains.sum_over_ranks(&rz, 1);
+    // r.W r over that of the last iteration: A = I - dt nu L W is symmetric in the product a.W b.
     const double beta = rz / last;
     for (int axis = 0; axis < residual_.size(); ++axis)
         for (std::size_t c = 0; c < residual_[axis].size(); ++c)
@@ -88,6 +94,7 @@ ImageProducts RigidViscosity::apply(BoxOperators& box, const RigidGrains& grains
     const VelocityRows& d = direction_ ? *direction_ : residual_;
     ImageProducts sum;
     for (int axis = 0; axis < d.size(); ++axis) {
+        // `direction` is A d . W d: the curvature in that product, without another solve.
         const ImageProducts one =
             box.viscous_image(per_laplacian_, axis, d[axis].data(), rigid_direction_.u[axis].data(),
                               residual_[axis].data(), keep ? image_[axis].data() : nullptr);

@@ -47,6 +47,7 @@ void BoxFluidStep::sides_changed() {
     for (int axis = 0; axis < layers.components(); ++axis)
         for (int side = 0; side < 2 * layers.components(); ++side) {
             std::vector<double>& own = step_.side_velocity(axis)[side];
+            // Of the whole side the part of this rank's layers
             std::copy_n(held[axis][side].begin() + per_layer[side / 2] * fields_->first_row(),
                         own.size(), own.begin());
         }
@@ -62,6 +63,7 @@ void BoxFluidStep::store() {
 
 void BoxFluidStep::put_unconstrained() {
     if (!coupled_) return put_velocity();
+    // There is no u3 of before the grains: s of the last f and p takes its place.
     VelocityRows s = coupled_->unconstrained();
     fields_->write_velocity(s.pointers());
 }
@@ -76,6 +78,7 @@ FluxReport BoxFluidStep::solenoidal() {
     const bool begins = !second_order_.goes_on();
     if (in_second_order_ && !coupled_) return step_.project_and_hold_middle(dt_, begins);
     if (!coupled_) return step_.project(dt_);
+    // Transport gets a flux without divergence; u^n, nearly solenoidal already, and e stay.
     const FluxReport report = step_.hold_solenoidal_flux(dt_);
     if (in_second_order_) step_.hold_middle_flux(begins);
     return report;
@@ -85,8 +88,10 @@ Projection BoxFluidStep::project() {
     if (!fields_->stay_in_rows()) load();
     const FluxReport report = solenoidal();
     double largest[] = {report.divergence, report.courant};
+    // All ranks cut transport into the same number of parts.
     ranks_.max(largest, 2);
     const BoxStep::Force none{};
+    // With rigid grains p is found later: end_coupled tells its force.
     return {{largest[0], largest[1]}, coupled_ ? none : on_all_ranks(step_.pressure_force())};
 }
 
@@ -94,6 +99,7 @@ Projection BoxFluidStep::project() {
 TransportParts BoxFluidStep::parts(double courant) const {
     if (!in_second_order_) return {transport_parts(courant)};
     const double decay = step_.fastest_decay(dt_);
+    // A decay without bound keeps viscosity out of the stages.
     return SecondOrder::parts(courant / largest_courant_, coupled_ ? INFINITY : decay);
 }
 
@@ -113,16 +119,19 @@ std::vector<BoundaryForce> BoxFluidStep::transport_in_second_order(const Transpo
 }
 
 std::vector<BoundaryForce> BoxFluidStep::transport_in_first_order(int parts) {
+    // A single part recomputes phi1 = S.u1 + e; later parts need it when u has changed.
     if (parts > 1 && !step_.holds_flux()) step_.hold_flux();
     ImpulsesOfWindow* impulses = coupled_ ? &coupled_->begin(dt_) : nullptr;
     std::vector<BoundaryForce> forces;
     for (int part = 1; part <= parts; ++part)
+        // f and -dt G p^n once, with the last part
         forces.push_back(convect(dt_ / parts, part == parts ? impulses : nullptr));
     return forces;
 }
 
 BoundaryForce BoxFluidStep::diffuse() {
     if (coupled_) {
+        // f, explicit, has come with transport, and `correct` makes it implicit.
         coupled_->keep_transported();
         return {};
     }
@@ -136,6 +145,7 @@ BoundaryForce BoxFluidStep::diffuse() {
 std::vector<BoundaryForce> BoxFluidStep::end_coupled() {
     if (!coupled_) return {};
     coupled_->end();
+    // Of the p and f that the window has ended with, as impulses over the whole of it
     return {on_all_ranks(step_.pressure_force()), on_all_ranks(coupled_->viscous_force())};
 }
 
@@ -146,6 +156,7 @@ std::vector<VelocityValues> BoxFluidStep::velocity_values() {
 }
 
 SideForce BoxFluidStep::convect(double dt, ImpulsesOfWindow* impulses) {
+    // With the u that is carried, before transport changes it
     const SideForce force = step_.convective_force();
     step_.transport(dt, impulses);
     return force;
@@ -156,7 +167,9 @@ SideForce BoxFluidStep::diffuse_implicitly(double dt) {
     return step_.viscous_force();
 }
 
-/// A direct solve spreads one bad value over all rows of all ranks; without one, all cells count.
+/// A direct solve spreads one bad value over all rows of all ranks; with rigid grains there is
+/// none, and all cells count. Nor is there one where transport has done viscosity: a bad value
+/// beyond the first cells is then found by the ledger, after step 5.
 bool BoxFluidStep::finite() {
     double sum = 0.0;
     const std::size_t some = coupled_ ? step_.cells() : std::min<std::size_t>(step_.cells(), 100);
@@ -174,6 +187,7 @@ void BoxFluidStep::visit_memory(const ValuesVisit& visit) {
         visit(values.data(), values.size());
     };
     const int components = step_.layers().components();
+    // This order is that of saved states (memory_rows); `kind` tells which parts there are.
     for (int axis = 0; axis < components; ++axis) visit_all(step_.excess(axis));
     // The next window begins with p itself: the field has another level where no side fixes it.
     if (coupled_) visit(step_.pressure(), step_.cells());

@@ -5,12 +5,14 @@ namespace turbidite {
 namespace {
 
 End velocity_end(Side side) {
+    // A wall or an inflow holds u; a free side has no gradient of it.
     return side == Side::cyclic ? End::periodic
            : side == Side::wall ? End::dirichlet
                                 : End::neumann;
 }
 
 End pressure_end(Side side) {
+    // The other way round: p = 0 on a free side, and no gradient where u is held.
     return side == Side::cyclic ? End::periodic
            : side == Side::wall ? End::neumann
                                 : End::dirichlet;
@@ -21,6 +23,7 @@ AxisOperator axis_of(const CellGrid& grid, int axis, End (*end)(Side)) {
                     end(grid.sides[axis][1])};
     if (!grid.stretched(axis)) return of;
     for (int j = 0; j < of.cells; ++j) of.sizes.push_back(grid.size(axis, j));
+    // Of a stretched axis that of its equal cells, which begin at the bottom.
     of.spacing = of.sizes.front();
     return of;
 }

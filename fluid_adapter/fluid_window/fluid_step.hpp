@@ -21,8 +21,8 @@
 
 namespace turbidite {
 
-/// What crosses the boundaries: the rate of change of the fluid's momentum over rho_f, per unit
-/// length out of the plane [m3/s2].
+/// What crosses the boundaries: the rate of change of the fluid's momentum over rho_f [m4/s2], in
+/// the plane per unit length [m3/s2].
 using BoundaryForce = BoxStep::Force;
 
 struct Projection {

@@ -20,6 +20,7 @@ CoupledLimits coupled_limits(const Settings& settings) {
     limits.viscosity.most = most;
     if (!splitting_of(settings).iterated) return limits;
     limits.iterated = true;
+    // u_c/D [1/s] for the divergence, u_c^2/D [m/s2] for the missing viscous acceleration
     const double rate = settings.real("fluid.splitting_tolerance") * run.velocity / run.diameter;
     limits.viscosity = {most, rate * run.velocity};
     limits.pressure = {most, rate};
@@ -54,6 +55,7 @@ FluidWindow::FluidWindow(FluidStore& store, const Settings& settings, const Shap
 
 void FluidWindow::advance(const Window& window) {
     begin(window);
+    // Before step 1, whose body force (`drive`) is part of the balance.
     ledger_.open(window.step);
     watch_.play("step 1 (projection)", timings_.projection, [&] { project(); });
     watch_.play("step 2 (transport)", timings_.transport, [&] { transport(); });
@@ -67,12 +69,15 @@ void FluidWindow::let_fall(const std::vector<GrainState>& grains) {
 }
 
 void FluidWindow::correct(const std::vector<GrainState>& grains) {
+    // Under `joint` let_fall has taken the grains, and these are the results of their contacts;
+    // under `split` this is the first time that they come.
     if (!grains_taken_) check_rows(grains);
     if (!grains_taken_)
         return answer("step 5 (multipliers)",
                       [&] { multipliers_.take_constrained(grains, window_); });
     watch_.play("step 5 (contact impulses)", timings_.multipliers,
                 [&] { note(multipliers_.push(grains)); });
+    // implicit-multiplier, after every round: what the contacts change is not solenoidal.
     if (coupled_limits_.iterated) correct_fluid(coupled_limits_);
 }
 
@@ -87,9 +92,11 @@ Kicks FluidWindow::impose() {
     watch_.play("step 5 (multipliers)", timings_.multipliers, [&] {
         if (lambda_is_seen()) step_.put_unconstrained();  // u3
         multipliers_.impose();
+        // Those of pressure and viscosity with rigid grains are known only now.
         for (const BoundaryForce& force : step_.end_coupled()) ledger_.add(force);
         fields_follow_ = false;
         if (lambda_is_seen()) field_.put_force_density(multipliers_.constraint());
+        // After put_force_density, which needs the u3 that the fields still have.
         field_.store(multipliers_.constraint());
         close_ledger();
     });
@@ -110,7 +117,9 @@ void FluidWindow::begin(const Window& window) {
     timings_ = {};
     report_ = {};
     grains_taken_ = false;
+    // An array per component, only for windows whose lambda somebody sees.
     if (CoupledStep* coupled = step_.coupled()) coupled->keep_unconstrained(lambda_is_seen());
+    // Before step 1, which sees what sides hold in this window.
     if (store_.begin(window)) step_.sides_changed();
     step_.begin(window.step);
     fields_follow_ = false;
@@ -134,6 +143,7 @@ void FluidWindow::project() {
 void FluidWindow::drive() {
     if (run_.acceleration == Vec3{}) return;
     field_.accelerate(window_.step * run_.acceleration);
+    // The ledger multiplies by rho_f dt.
     const Vec3 rate = volume() * run_.acceleration;
     ledger_.add(BoundaryForce{rate[0], rate[1], rate[2]});
 }
@@ -150,6 +160,7 @@ void FluidWindow::diffuse() {
 /// Takes the grains of this window and solves for their multipliers.
 template <class Take>
 void FluidWindow::answer(const char* name, Take take) {
+    // Points first: what is loaded are the velocities in the cells that they need.
     watch_.play(name, timings_.points, take);
     watch_.play(name, timings_.multipliers, [&] {
         field_.load(multipliers_.constraint());
@@ -165,6 +176,8 @@ void FluidWindow::correct_fluid(const CoupledLimits& limits) {
     CoupledStep* coupled = step_.coupled();
     if (!coupled) return;
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
+        // Pressure and viscosity change an imposed velocity by rigid changes, and the multipliers
+        // go on from what has been imposed.
         multipliers_.impose();
         RigidGrains grains(multipliers_.constraint(), field_.velocities(), field_.owned_cells());
         note(coupled->correct(grains, limits));
@@ -182,12 +195,14 @@ void FluidWindow::note(const CoupledReport& result) {
     splitting.divergence = result.pressure.residual;
     splitting.viscous_residual = result.viscosity.residual;
     splitting.converged = splitting.converged && result.converged;
+    // That of `settle`, which came last
     if (coupled_limits_.iterated) report_.multiplier_residual = result.slip.residual;
 }
 
 /// Accumulates the results of all solves of a window.
 void FluidWindow::note(const MultiplierResult& result) {
     report_.multiplier_iterations += result.iterations;
+    // Of the last solve, while iterations are those of all.
     report_.multiplier_residual = result.residual;
     report_.multipliers_converged = report_.multipliers_converged && result.converged;
     if (result.converged) return;
@@ -199,6 +214,7 @@ void FluidWindow::note(const MultiplierResult& result) {
 
 void FluidWindow::close_ledger() {
     Vec3 to_grains = multipliers_.impulse_to_grains().linear;
+    // Each body has been counted on one rank.
     field_.sum_over_ranks(to_grains.data(), 3);
     report_.momentum_defect = ledger_.close(to_grains);
     report_.mean_velocity = ledger_.momentum() / (run_.fluid_density * volume());
@@ -224,6 +240,7 @@ void FluidWindow::check_rows(const std::vector<GrainState>& grains) const {
     const double own = height;
     store_.ranks().max(&height, 1);
     if (height <= highest_grain_ * (1.0 + 1e-9)) return;
+    // The grain is named by the rank that has it; the others offer -1.
     double id = height == own && highest != grains.end() ? static_cast<double>(highest->id) : -1.0;
     store_.ranks().max(&id, 1);
     std::ostringstream why;
@@ -272,6 +289,7 @@ void FluidWindow::velocity_changed() {
 void FluidWindow::fields_replaced() {
     step_.take_velocity();
     ledger_.forget();
+    // Rates and excess fluxes have come with the state: nothing is forgotten but the ledger's P.
     fields_follow_ = true;
 }
 

@@ -11,6 +11,7 @@ FluidMomentum momentum_of_layers(const FluidField& field, const std::array<doubl
     const LayerCells layers = field.layers();
     const std::size_t layer = layers.cells() / layers.count;
     for (int j = 0; j < layers.count; ++j) {
+        // Columns are equal, so that a layer has one mass per cell.
         const double mass = field.cell_mass(0, layers.first + j);
         for (int axis = 0; axis < 3; ++axis) {
             const double* u = u_of[axis] + j * layer;

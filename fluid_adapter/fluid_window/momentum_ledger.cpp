@@ -14,6 +14,7 @@ constexpr double beyond_rounding = 1e-7;
 
 void MomentumLedger::open(double dt) {
     dt_ = dt;
+    // P^n is what the last window has closed with, unless u was changed from outside.
     before_ = current_ ? *current_ : field_.momentum().sum;
     current_.reset();
     impulses_ = {};
@@ -38,6 +39,7 @@ double MomentumLedger::close(const Vec3& to_grains) {
     const FluidMomentum now = field_.momentum();
     current_ = now.sum;
     const Vec3 change = now.sum - before_;
+    // P^{n+1} - P^n + sum dt lambda - impulses
     const double defect = norm(change + to_grains - impulses_);
     const double scale =
         std::max({largest_, norm(change), norm(to_grains), beyond_rounding * now.magnitudes});

@@ -9,7 +9,7 @@
 // where the impulses are those of pressure (step 1), convection (2) and viscosity (3). They are
 // computed from boundary values only, so that the balance is an independent check of the sum over
 // cells; where viscosity is corrected with rigid grains (coupled_step.hpp) its impulse is that of
-// the cells, and not checked. [N s/m]
+// the cells, and not checked. [N s], in the plane per unit length
 #pragma once
 
 #include <optional>

@@ -74,6 +74,7 @@ SliceLayout slice_layout(const SliceEdges& edges, const std::vector<SliceArray>&
     for (int axis = 0; axis < 3; ++axis) out << declaration.of(axes[axis], 1, edges[axis].size());
     out << "</Coordinates>\n<CellData Scalars=\"p\" Vectors=\"U\">\n";
     for (const SliceArray& array : arrays) {
+        // Offsets count from the "_" that ends the header, which is not complete yet.
         layout.places.push_back(declaration.offset());
         layout.lengths.push_back(cells * array.components * sizeof(float));
         out << declaration.of(array.name, array.components, cells * array.components);

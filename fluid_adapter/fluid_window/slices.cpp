@@ -49,6 +49,7 @@ Slices::Slices(const Settings& settings, const CellGrid& grid, std::filesystem::
 Slices::Plane Slices::plane(const CellGrid& grid, int normal, double place) const {
     std::ostringstream name;
     name << "xyz"[normal] << place / run_.diameter;
+    // A plane on the upper side of the box lies in no layer: it gets the last one.
     const int layer = std::clamp(grid.layer(normal, place), 0, grid.counts[normal] - 1);
     return {
         normal, normal == 0 ? 1 : 0, normal == 2 ? 1 : 2, place, axis_stencil(grid, normal, place),
@@ -81,6 +82,7 @@ std::vector<double> Slices::sampled(const Plane& plane, const StoredField& field
     for (at[plane.up] = 0; at[plane.up] < grid.counts[plane.up]; ++at[plane.up])
         for (at[plane.across] = 0; at[plane.across] < grid.counts[plane.across];
              ++at[plane.across], value += per_cell)
+            // A rank adds its layer's share; the other layer may be another rank's.
             for (const int end : {0, 1}) {
                 at[plane.normal] = plane.stencil.layer[end];
                 const int cell = field.cell(at[0], at[1], at[2]);
@@ -100,10 +102,12 @@ void Slices::cover(const Plane& plane, const StoredField& field, const ImmersedG
     const auto [normal, across, up] = std::array{plane.normal, plane.across, plane.up};
     Eigen::Vector3d off = Eigen::Vector3d::Zero();
     off[normal] = plane.place - grain.position[normal];
+    // Of a sphere that crosses a cyclic side the image that the plane cuts.
     off = grid.nearest_image(off);
     if (std::abs(off[normal]) >= grain.radius) return;
     Eigen::Vector3d centre = grain.position;
     centre[normal] = plane.place - off[normal];
+    // Radius of the circle in the plane
     const double reach = std::sqrt(grain.radius * grain.radius - off[normal] * off[normal]);
     const auto layer = [&](int axis, double side) {
         return grid.layer(axis, centre[axis] + side * reach);

@@ -14,6 +14,7 @@ BoundaryForce over_faces(const FluidFields& fields, PerFace per_face) {
         if (!side.coupled() && side.size() > 0) sum += Foam::sum(per_face(patch)());
     }
     fields.ranks.sum(sum.v_, Foam::vector::nComponents);
+    // Per unit length: the mesh has a thickness, and these steps are of the plane alone.
     return {sum.x() / fields.thickness, sum.y() / fields.thickness};
 }
 
@@ -21,6 +22,7 @@ BoundaryForce over_faces(const FluidFields& fields, PerFace per_face) {
 
 BoundaryForce pressure_force(const FluidFields& fields) {
     return over_faces(fields, [&](Foam::label patch) {
+        // S points outwards, so what enters has the minus.
         return -fields.p.boundaryField()[patch] * fields.mesh.Sf().boundaryField()[patch];
     });
 }
@@ -33,6 +35,7 @@ BoundaryForce convective_force(const FluidFields& fields) {
 
 BoundaryForce viscous_force(const FluidFields& fields) {
     return over_faces(fields, [&](Foam::label patch) {
+        // nu |S| du/dn, the gradient along the outward normal
         return fields.nu * fields.mesh.magSf().boundaryField()[patch] *
                fields.U.boundaryField()[patch].snGrad();
     });

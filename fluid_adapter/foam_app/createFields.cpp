@@ -21,6 +21,7 @@ FluidMomentum momentum_of(const FluidFields& fields, X x, Y y) {
         sum[2] += volume[c] * (std::abs(x(c)) + std::abs(y(c)));
     }
     fields.ranks.sum(sum.data(), static_cast<int>(sum.size()));
+    // rho_f V per unit length in the plane, where the mesh has a thickness
     const Foam::scalar density = fields.rho / fields.thickness;
     return {density * Vec3{sum[0], sum[1], 0.0}, density * sum[2]};
 }
@@ -65,6 +66,7 @@ FluidFields::FluidFields(const std::filesystem::path& directory, const RankGroup
 }
 
 bool FluidFields::finished() const {
+    // Within half a step, since times are sums of steps
     return time.value() >= time.endTime().value() - 0.5 * time.deltaTValue();
 }
 
@@ -86,6 +88,7 @@ Foam::scalar FluidFields::largest_divergence() const {
 
 Foam::scalar FluidFields::courant() const {
     const Foam::tmp<Foam::volScalarField> sum = Foam::fvc::surfaceSum(Foam::mag(phi));
+    // dt sum |phi| / (2 V), as OpenFOAM's solvers print it: what enters a cell also leaves it.
     return 0.5 * time.deltaTValue() * Foam::gMax((sum().primitiveField() / mesh.V().field())());
 }
 

@@ -12,6 +12,7 @@
 namespace turbidite {
 
 FoamAdapter::FoamAdapter(std::filesystem::path directory) : directory_(std::move(directory)) {
+    // Errors have to reach the coupler instead of ending the program.
     Foam::FatalError.throwExceptions();
     Foam::FatalIOError.throwExceptions();
     // Debian's controlDict switches on the floating-point trap, which kills the job without a
@@ -26,6 +27,7 @@ FoamAdapter::~FoamAdapter() = default;
 void FoamAdapter::share(int communicator) {
     ranks_ = RankGroup(MPI_Comm_f2c(communicator));
     if (!ranks_.parallel()) return;
+    // OpenFOAM's own messages go over MPI_COMM_WORLD, which is this communicator by now.
     int no_arguments = 0;
     char** none = nullptr;
     with_foam_errors("starting in parallel",
@@ -46,6 +48,7 @@ Box FoamAdapter::initialise(const Settings& settings, const ShapeTable& shapes) 
         store_ = std::make_unique<FoamStore>(directory_, ranks_, settings);
         window_ = std::make_unique<FluidWindow>(*store_, settings, shapes);
     });
+    // `false`: of this rank's part of the mesh, not reduced over the ranks
     const Foam::boundBox bounds(store_->fields().mesh.points(), false);
     return {{bounds.min().x(), bounds.min().y(), bounds.min().z()},
             {bounds.max().x(), bounds.max().y(), bounds.max().z()}};
@@ -56,6 +59,7 @@ FluidRank FoamAdapter::of_this_rank() const {
 }
 
 SavedState FoamAdapter::save() const {
+    // Steps may keep u and p to themselves; what is saved are the fields.
     window_->put_fields();
     return save_fields(of_this_rank());
 }

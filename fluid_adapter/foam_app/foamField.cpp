@@ -22,15 +22,18 @@ FoamField::FoamField(FluidFields& fields, const FluidDomain& domain)
       grid_(grid_of(domain, fields.thickness)),
       cell_mass_(fields.rho * grid_.spacing[0] * grid_.spacing[1]) {
     if (grid_.dimension == 3) cell_mass_ *= grid_.spacing[2];
+    // A single rank holds every grain alone: nothing is summed.
     if (fields.ranks.parallel()) shared_ = std::make_unique<SharedGrains>(fields.ranks);
 }
 
 std::vector<int> FoamField::cell_numbers() const {
     std::vector<int> numbers;
     bool as_asked = true;
+    // By the places of the cells, whatever the numbering of the mesh and its decomposition
     for (const Foam::point& centre : fields_.mesh.cellCentres()) {
         int index[3] = {};
         for (int axis = 0; axis < grid_.dimension; ++axis) {
+            // A centre outside the grid is off by more than the tolerance from cell 0.
             index[axis] = std::max(grid_.wrapped(axis, grid_.layer(axis, centre[axis])), 0);
             const double off = centre[axis] - grid_.centre(axis, index[axis]);
             as_asked =
@@ -38,6 +41,7 @@ std::vector<int> FoamField::cell_numbers() const {
         }
         numbers.push_back(index[0] + grid_.counts[0] * (index[2] + grid_.counts[2] * index[1]));
     }
+    // Right places, and as many cells as places, over all ranks
     double cells = static_cast<double>(numbers.size());
     fields_.ranks.sum(&cells, 1);
     as_asked = as_asked &&
@@ -73,7 +77,9 @@ Vec3 FoamField::constrained(int cell) const {
 }
 
 void FoamField::put_force_density(const Constraint& constraint) {
+    // Grains move: cells of the last window may not be among these.
     fields_.lambda.primitiveFieldRef() = Foam::Zero;
+    // lambda = rho_f (u3 - u)/dt, u3 from the fields and u from the multipliers
     const Foam::scalar rate = fields_.rho / fields_.time.deltaTValue();
     constraint.for_cells([&](int cell) {
         const Vec3 u = constrained(cell);

@@ -29,6 +29,7 @@ void FoamRows::read_pressure(double* rows) {
 
 void FoamRows::write_pressure(const double* rows, bool floating) {
     Foam::scalarField& p = fields_.p.primitiveFieldRef();
+    // Where no side fixes p, it is zero in cell (0, 0) of the box.
     const double level = floating ? rows_.first(rows) : 0.0;
     rows_.scatter(rows, [&](int c, double value) { p[c] = value - level; });
     fields_.p.correctBoundaryConditions();

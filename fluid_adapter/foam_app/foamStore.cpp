@@ -19,6 +19,7 @@ FoamStore::FoamStore(const std::filesystem::path& directory, const RankGroup& ra
       functions_(fields_.time),
       probes_(settings),
       slices_(settings, field_->grid(), directory) {
+    // The step was made with the field's cells; the field works on the step's velocity.
     field_->work_on(*step_);
 }
 
@@ -29,7 +30,9 @@ double FoamStore::equal_height() const {
 bool FoamStore::begin(const Window& window) {
     windows_ = window.index + 1;
     fields_.time.readModifiedObjects();
+    // `false`: the step as given, not adjusted to times of output
     fields_.time.setDeltaT(window.step, false);
+    // Before the time goes on: at the one that a run begins at, or goes on from.
     with_foam_errors("starting function objects", [&] { functions_.begin(); });
     if (finished())
         throw Failure(ExitCode::participant_failed, "window " + std::to_string(window.index) +

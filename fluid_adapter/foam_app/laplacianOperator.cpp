@@ -37,6 +37,7 @@ std::string inhomogeneous_condition(const Foam::fvMatrix<Type>& matrix, Held all
     forAll(matrix.psi().boundaryField(), patch) {
         const auto& condition = matrix.psi().boundaryField()[patch];
         if (condition.coupled() || condition.size() == 0) continue;
+        // Rows have values on their sides (box_step/side_values.hpp).
         if (allowed == Held::values && condition.fixesValue()) continue;
         if (Foam::max(Foam::mag(matrix.boundaryCoeffs()[patch])) > 0.0)
             return "the value or gradient fixed on patch " + condition.patch().name() +
@@ -58,6 +59,7 @@ Foam::fvVectorMatrix laplacian(Foam::volVectorField& U) {
 /// Puts the boundary's contribution to the diagonal where a solver expects it.
 template <class Type>
 BoxOperator read(const Foam::fvMatrix<Type>& matrix, const BoxCells& box) {
+    // fvMatrix keeps it apart, per patch and component, until it is solved.
     Foam::lduMatrix whole(matrix);
     Foam::scalarField& diagonal = whole.diag();
     forAll(matrix.internalCoeffs(), patch) {
@@ -71,6 +73,7 @@ BoxOperator read(const Foam::fvMatrix<Type>& matrix, const BoxCells& box) {
 
 template <class Type>
 BoxOperator lasting_operator(VolField<Type>& field, const BoxCells& box, Held allowed) {
+    // All ranks must come to the same verdict, since all take part in what follows.
     demand(box.ranks, switching_condition(field));
     const auto matrix = laplacian(field);
     demand(box.ranks, inhomogeneous_condition(matrix, allowed));

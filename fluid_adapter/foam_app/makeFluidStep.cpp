@@ -58,6 +58,7 @@ std::optional<TransportMethod> transport_on_rows(const FluidFields& fields) {
     if (name != "limitedLinearV") return std::nullopt;
     const double k = Foam::readScalar(scheme);
     if (k < 0.0 || k > 1.0) return std::nullopt;  // refused by OpenFOAM
+    // 2/k is needed, and k may be 0.
     method.limiter = std::max(k, Foam::SMALL);
     return method;
 }
@@ -110,6 +111,8 @@ std::unique_ptr<FluidStep> operator_step(const Settings& settings, FluidFields& 
 /// The operator with the spacing of the mesh in metres; of a stretched grid, that of its first row.
 SeparableOperator in_metres(SeparableOperator plane, const Foam::vector& box_size,
                             const CellGrid& grid) {
+    // The matrix tells ratios alone (spacing 1 along x), and heights to coefficient_tolerance: the
+    // exact ones are the grid's.
     plane.x.spacing = box_size.x() / plane.x.cells;
     plane.y.spacing = box_size.y() / plane.y.cells;
     plane.y.sizes.clear();
@@ -141,6 +144,7 @@ std::unique_ptr<BoxRows> box_rows(const RankGroup& ranks, const SeparableOperato
     try {
         return std::make_unique<RankRows>(ranks, plane, cells);
     } catch (const std::invalid_argument& why) {
+        // So that the operators are tried instead
         throw DoesNotFit(why.what());
     }
 }
@@ -165,6 +169,7 @@ std::unique_ptr<FluidStep> step_in_the_plane(const Settings& settings, FluidFiel
                                              const CellGrid& grid) {
     const BoxFluid fluid = box_in_the_plane(fields, box, grid);
     auto own = std::make_unique<PlaneRows>(fields, box);
+    // Pressure and viscosity with rigid grains change the velocity that step 5 works on, in place.
     if (splitting_of(settings).rigid_grains && !own->stay_in_rows())
         throw DoesNotFit("its ranks do not have complete rows of cells");
     return box_fluid_step(settings, fluid, method, std::move(own), fields);
@@ -184,6 +189,7 @@ std::unique_ptr<FluidStep> step_in_space(const Settings& settings, FluidFields& 
         throw Failure(ExitCode::bad_input,
                       "in space every rank must have whole layers of cells of one y: use "
                       "fluid.decomposition = rows");
+    // box_of: by what the sides are. OpenFOAM's matrices are read in the plane only.
     return box_fluid_step(settings, box_of(grid), *method, std::move(own), fields);
 }
 

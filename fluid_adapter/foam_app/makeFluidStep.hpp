@@ -13,7 +13,7 @@
 
 namespace turbidite {
 
-/// `cells`: the number i + nx j in the grid of each of this rank's cells. Throws Failure
+/// `cells`: the number i + nx (k + nz j) in the grid of each of this rank's cells. Throws Failure
 /// (bad_input), naming the key, if FFT does not fit the mesh or a boundary condition.
 std::unique_ptr<FluidStep> make_fluid_step(const Settings& settings, FluidFields& fields,
                                            const CellGrid& grid, const std::vector<int>& cells);

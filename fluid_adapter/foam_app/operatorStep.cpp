@@ -29,6 +29,7 @@ const double* take_faces(const double* next, Foam::surfaceScalarField& field) {
 }  // namespace
 
 Projection OperatorStep::project() {
+    // S.u; the projection adds k e.
     fields_.interpolate_flux();
     const Foam::scalar divergence = projection_.project();
     return {{divergence, fields_.courant()}, pressure_force(fields_)};
@@ -64,12 +65,14 @@ std::vector<BoundaryForce> OperatorStep::transport(const TransportParts& parts) 
         return forces;
     }
     const Foam::surfaceScalarField flux(fields_.phi);
+    // Half a window beyond phi1; in the first window phi1 itself
     if (second_order_.goes_on()) fields_.phi = 1.5 * flux - 0.5 * last_flux_;
     last_flux_ = flux;
     return second_order_.transport(*this, dt, parts);
 }
 
 BoundaryForce OperatorStep::diffuse() {
+    // Viscosity was part of the stages, and so are the forces.
     if (viscous_transport_) return {};
     const double dt = fields_.time.deltaTValue();
     return in_second_order_ ? second_order_.diffuse(*this, dt) : diffuse_implicitly(dt);
@@ -78,6 +81,7 @@ BoundaryForce OperatorStep::diffuse() {
 std::vector<VelocityValues> OperatorStep::velocity_values() {
     Foam::vectorField& U = fields_.U.primitiveFieldRef();
     static_assert(sizeof(Foam::vector) == 3 * sizeof(double), "a vector is three doubles");
+    // All three components: the third is zero and stays so (advection.cpp).
     return {{U.data()->v_, 3 * static_cast<std::size_t>(U.size())}};
 }
 
@@ -109,6 +113,7 @@ SideForce OperatorStep::play(const VelocityStage& stage) {
 /// U += dt L(U)
 SideForce OperatorStep::advance(double dt, bool viscous) {
     if (!viscous) return convect(dt);
+    // Both parts of L by the same u, before U changes
     SideForce force = viscous_force(fields_);
     const Foam::vectorField change(dt * viscosity_.acceleration());
     const SideForce convected = convect(dt);
@@ -131,6 +136,7 @@ bool OperatorStep::finite() {
 
 std::vector<double> OperatorStep::memory() {
     std::vector<double> values;
+    // In OpenFOAM's order of faces, which is that of this decomposition: memory_rows stays empty.
     append_faces(fields_.excess, values);
     if (!in_second_order_) return values;
     append_faces(last_flux_, values);

@@ -12,6 +12,7 @@ constexpr int halo_layers = 3;
 
 PlaneField::PlaneField(FluidFields& fields, const FluidDomain& domain)
     : FoamField(fields, domain),
+      // A single rank knows every cell without a halo.
       block_(grid(), cell_numbers(), fields.ranks.parallel() ? halo_layers : 0) {
     if (fields.ranks.parallel()) know_halo();
     cells_ = block_.table();
@@ -22,6 +23,7 @@ PlaneField::PlaneField(FluidFields& fields, const FluidDomain& domain)
 void PlaneField::know_halo() {
     halo_ = std::make_unique<HaloExchange>(fields_.ranks, grid().counts[0] * grid().counts[1],
                                            cell_numbers(), block_.halo());
+    // Ordered by owner, as import_halo fills them in
     block_.number_halo(halo_->halo());
     in_a_halo_.assign(owned_cells(), 0);
     shared_cells_ = halo_->shared();
@@ -29,8 +31,10 @@ void PlaneField::know_halo() {
 }
 
 void PlaneField::work_on(FluidStep& step) {
+    // The step has no contiguous components: u stays in U and is copied where step 5 needs it.
     if (step.velocity(0) == nullptr) return copy_velocity();
     copies_used_ = false;
+    // Not needed any more: their memory is given back.
     for (std::vector<double>& copy : copies_) copy = {};
     for (int axis = 0; axis < 2; ++axis) velocity_[axis] = step.velocity(axis);
 }
@@ -50,6 +54,7 @@ std::array<const double*, 2> PlaneField::import_halo(const double* x, const doub
 
 void PlaneField::share_sums(double* x, double* y) const {
     if (!halo_) return;
+    // Sums to the owners, and from there to all that know the cell: the same bits everywhere
     halo_->export_sums({x, y});
     halo_->import({x, y});
 }
@@ -76,6 +81,7 @@ FluidMomentum PlaneField::momentum() const {
 void PlaneField::load(const Constraint& constraint) {
     if (!copies_used_) return;
     constraint.for_cells([&](int cell) { load(cell); });
+    // Other ranks read these through import_halo, even if no point of this rank uses them.
     for (const int cell : shared_cells_) load(cell);
 }
 

@@ -29,7 +29,7 @@ constexpr std::size_t components = 4;  // of u, and p
 /// A state by its parts.
 struct Parts {
     Header header;
-    std::vector<std::int32_t> cells;  // i + nx j
+    std::vector<std::int32_t> cells;  // i + nx (k + nz j)
     std::vector<double> values;       // u, v, w, p of each cell
     std::vector<double> memory;
 };
@@ -57,6 +57,7 @@ std::size_t size_of(const Header& header) {
 
 Parts parts_of(const SavedState& state) {
     Parts parts;
+    // Nothing in it is believed before the sizes agree.
     if (state.size() >= sizeof(Header)) std::memcpy(&parts.header, state.data(), sizeof(Header));
     const Header& header = parts.header;
     if (state.size() < sizeof(Header) || header.cells < 0 || header.memory < 0 ||
@@ -94,6 +95,7 @@ class WholeMemory {
     void take(const Parts& rank) {
         visit(rank.header.first_row, rank.header.rows, rank.memory.size(),
               [&](std::size_t array, std::size_t to, std::size_t from, std::size_t count) {
+                  // It grows as ranks are read: how many rows there are is not known before.
                   if (whole_[array].size() < to + count) whole_[array].resize(to + count);
                   std::copy_n(rank.memory.begin() + static_cast<std::ptrdiff_t>(from), count,
                               whole_[array].begin() + static_cast<std::ptrdiff_t>(to));
@@ -124,6 +126,7 @@ class WholeMemory {
                 array.width == 0 ? 1 : array.width * (static_cast<std::size_t>(rows) + array.above);
             if (at + count > size)
                 throw Failure(ExitCode::bad_input, "the saved fluid state is incomplete");
+            // A single value (width 0) has the place 0, whatever the rank.
             copy(k, array.width * static_cast<std::size_t>(first), at, count);
             at += count;
         }
@@ -148,6 +151,7 @@ SavedState save_fields(const FluidRank& rank) {
                     static_cast<std::int64_t>(rows.first),
                     static_cast<std::int64_t>(rows.count),
                     static_cast<std::int64_t>(parts.memory.size())};
+    // Places in the grid: by them another decomposition finds its cells.
     parts.cells.assign(rank.cells.begin(), rank.cells.end());
     parts.values.reserve(components * parts.cells.size());
     forAll(fields.p, c) {
@@ -163,6 +167,7 @@ void restore_fields(const SavedState& state, const FluidRank& rank) {
     const Header& header = parts.header;
     const bool same_cells =
         std::equal(parts.cells.begin(), parts.cells.end(), rank.cells.begin(), rank.cells.end());
+    // Corners as bits: another size of the box with as many cells is another mesh.
     if (header.corners != corners_of(fields.mesh) || !same_cells)
         throw Failure(ExitCode::bad_input,
                       "the saved fluid state has " + std::to_string(header.cells) +
@@ -179,6 +184,7 @@ void restore_fields(const SavedState& state, const FluidRank& rank) {
         U[c] = Foam::vector(values[0], values[1], values[2]);
         p[c] = values[3];
     }
+    // After p, which a step may read back from the field (BoxFluidStep::take_pressure).
     rank.step.set_memory(parts.memory);
     fields.U.correctBoundaryConditions();
     fields.p.correctBoundaryConditions();
@@ -195,12 +201,13 @@ SavedState part_of(const std::vector<SavedState>& of_ranks, const FluidRank& ran
                       "fluid.ranks = " +
                           std::to_string(of_ranks.size()));
     WholeMemory memory(rows.arrays);
-    std::vector<std::array<double, components>> values;  // by i + nx j
+    std::vector<std::array<double, components>> values;  // by number of the cell
     Parts own;
     for (const SavedState& state : of_ranks) {
         const Parts other = parts_of(state);
         check_kind(other.header, rank.step);
         memory.take(other);
+        // The time is that of any of them.
         own.header = other.header;
         for (std::size_t c = 0; c < other.cells.size(); ++c) {
             const auto place = static_cast<std::size_t>(other.cells[c]);

@@ -12,8 +12,8 @@
 
 namespace turbidite {
 
-/// A rank of the fluid: its fields, its steps, and the number i + nx j in the grid of each of its
-/// cells.
+/// A rank of the fluid: its fields, its steps, and the number i + nx (k + nz j) in the grid of each
+/// of its cells.
 struct FluidRank {
     FluidFields& fields;
     FluidStep& step;

@@ -27,8 +27,10 @@ std::vector<double> shares_of(const Foam::fvPatch& patch, const BoxSide& side,
     const Foam::scalar origin = box.min()[axis], length = box.span()[axis];
     std::vector<double> shares;
     forAll(patch, face) {
+        // Half of the face along the side; in the plane |S| is length times thickness.
         const Foam::scalar half = 0.5 * patch.magSf()[face] / fields.thickness;
         const Foam::scalar at = patch.Cf()[face][axis] - origin;
+        // The mean of the profile over the face: what all faces let in is exact on any mesh.
         shares.push_back(motion.share((at - half) / length, (at + half) / length));
     }
     return shares;
@@ -68,12 +70,15 @@ bool SideVelocity::set(double time, double step) {
 
 VelocityOnSides held_on_sides(const FluidFields& fields, const BoxCells& box) {
     const std::array<int, 2> length = {box.cells[1], box.cells[0]};
+    // One after the other: left and right by row, bottom and top by column
     const int per_component = 2 * (length[0] + length[1]);
     const auto first = [&](int side) {
         return side < 2 ? side * length[0] : 2 * length[0] + (side - 2) * length[1];
     };
+    // Zero but for the faces of this rank: the sum puts whole sides together on every rank.
     std::vector<double> values(2 * per_component, 0.0);
     for (const auto& condition : fields.U.boundaryField()) {
+        // Elsewhere the values are to be zero (side_values.hpp).
         if (condition.coupled() || !condition.fixesValue()) continue;
         const Foam::labelUList& cells = condition.patch().faceCells();
         forAll(cells, face) {

@@ -14,6 +14,7 @@ void SpaceField::work_on(FluidStep& step) {
 
 void SpaceField::find_layers() {
     const std::vector<int> numbers = cell_numbers();
+    // Whole layers: the numbers of a rank's cells follow each other, in any order in the mesh.
     first_cell_ = *std::min_element(numbers.begin(), numbers.end());
     mesh_cell_.resize(numbers.size());
     for (std::size_t c = 0; c < numbers.size(); ++c)

@@ -22,6 +22,7 @@ constexpr int attempts = 4;
 
 /// Iterations continue from the present solution, so a small reduction costs little.
 Foam::scalar tightening(Foam::scalar goal, Foam::scalar divergence) {
+    // Aims at half of the goal, by a hundredth at most and by a half at least.
     return std::clamp(0.5 * goal / divergence, 0.01, 0.5);
 }
 
@@ -52,6 +53,7 @@ void StokesProjection::solve_pressure(Foam::scalar tighter) {
 }
 
 Foam::scalar StokesProjection::project() {
+    // S.u + k e
     fields_.phi += kept_share() * fields_.excess;
     fields_.divergence(rate_);
     Foam::scalar divergence = Foam::gMax(Foam::mag(rate_)());
@@ -62,15 +64,19 @@ Foam::scalar StokesProjection::project() {
     }
     given_ = fields_.phi;
     const Foam::dimensionedScalar dt = fields_.time.deltaT();
+    // (div phi)/dt over a cell: the source of laplacian(p), integrated as the matrix is
     rate_ *= fields_.mesh.V().field() / dt.value();
     Foam::scalar tighter = 1.0;
     for (int attempt = 0; attempt < attempts; ++attempt) {
         solve_pressure(tighter);
+        // phi1 = phi - dt S.grad p, with the differences of the matrix: div phi1 is dt times what
+        // the solver leaves of the residual.
         fields_.phi = given_ - dt * matrix_.flux();
         divergence = fields_.largest_divergence();
         if (divergence <= goal_) break;
         tighter *= tightening(goal_, divergence);
     }
+    // u1 = u - dt grad p
     fields_.U -= dt * Foam::fvc::grad(fields_.p);
     fields_.U.correctBoundaryConditions();
     remember();
@@ -84,6 +90,7 @@ Foam::scalar StokesProjection::kept_share() const {
 }
 
 void StokesProjection::remember() {
+    // e = phi1 - S.u1
     fields_.excess = fields_.phi - Foam::fvc::flux(fields_.U);
     // e is zero on the sides of the box, where the flux is given by boundary conditions.
     forAll(fields_.excess.boundaryField(), patch) {

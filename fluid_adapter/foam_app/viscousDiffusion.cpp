@@ -12,6 +12,7 @@ namespace turbidite {
 void ViscousDiffusion::assemble(Foam::scalar dt) {
     const Foam::dimensionedScalar rate("rate", Foam::dimless / Foam::dimTime, 1.0 / dt);
     const Foam::dimensionedScalar nu("nu", Foam::dimViscosity, fields_.nu);
+    // (1/dt - nu laplacian) u3 = u2/dt
     matrix_ = std::make_unique<Foam::fvVectorMatrix>(Foam::fvm::Sp(rate, fields_.U) -
                                                      Foam::fvm::laplacian(nu, fields_.U));
     assembled_for_ = dt;
@@ -24,6 +25,7 @@ Foam::tmp<Foam::vectorField> ViscousDiffusion::acceleration() const {
 
 void ViscousDiffusion::solve(Foam::scalar dt) {
     if (assembled_for_ != dt) assemble(dt);
+    // Integrated over cells, as the matrix is, which has what the sides hold.
     matrix_->source() = fields_.mesh.V().field() / dt * fields_.U.primitiveField();
     const Foam::dictionary& controls = fields_.mesh.solverDict(fields_.U.name());
     const auto result = matrix_->solve(controls);

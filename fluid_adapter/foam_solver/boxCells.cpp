@@ -30,6 +30,7 @@ std::vector<std::vector<int>> beyond_patches(const Foam::lduMesh& mesh,
         return interfaces.set(patch) &&
                (joins_ranks(interfaces[patch]) || closes_box(interfaces[patch]));
     };
+    // Only requests made from here on are waited for.
     const Foam::label first_request = Foam::UPstream::nRequests();
     forAll(interfaces, patch) if (known(patch)) interfaces[patch].initInternalFieldTransfer(way,
                                                                                             values);
@@ -67,6 +68,7 @@ std::vector<int> face_pairs(const Foam::lduMesh& mesh, const Foam::labelList& nu
         if (!interfaces.set(patch) || closes_box(interfaces[patch])) continue;
         const Foam::labelUList& cells = interfaces[patch].faceCells();
         for (std::size_t face = 0; face < beyond[patch].size(); ++face)
+            // So that each such face is told once, by one of its two ranks
             if (numbers[cells[face]] < beyond[patch][face])
                 pairs.insert(pairs.end(), {numbers[cells[face]], beyond[patch][face]});
     }
@@ -120,11 +122,13 @@ RankGroup openfoam_ranks() {
 BoxCells number_cells(const Foam::lduMesh& mesh, const RankGroup& ranks) {
     const std::vector<int> counts = ranks.everywhere(mesh.lduAddr().size());
     ByRank<int> to_first(ranks.size());
+    // Rank 0 numbers the box: following rows needs the faces of all ranks.
     to_first[0] = face_pairs(mesh, numbers_over_ranks(mesh, ranks));
     const ByRank<int> pairs = all_to_all(ranks, to_first);
     const ByRank<int> answers =
         ranks.rank() == 0 ? numbered(pairs, counts) : ByRank<int>(ranks.size());
     const std::vector<int> answer = all_to_all(ranks, answers)[0];
+    // Every rank gets the same text and throws.
     if (answer[0] == 0) throw DoesNotFit(std::string(answer.begin() + 1, answer.end()));
     return box_cells(mesh, ranks, {answer[0], answer[1]}, {answer.begin() + 2, answer.end()});
 }
@@ -135,6 +139,7 @@ BoxCells box_cells(const Foam::lduMesh& mesh, const RankGroup& ranks,
     const Foam::labelUList& lower = mesh.lduAddr().lowerAddr();
     const Foam::labelUList& upper = mesh.lduAddr().upperAddr();
     box.axis.resize(lower.size());
+    // Two cells of a row are coupled along x.
     forAll(lower, face) box.axis[face] =
         box.row(place[lower[face]]) == box.row(place[upper[face]]) ? 0 : 1;
     Foam::labelList places(static_cast<Foam::label>(place.size()));
@@ -148,6 +153,7 @@ void demand(const RankGroup& ranks, const std::string& fault) {
     ByRank<int> letters(ranks.size());
     for (std::vector<int>& list : letters) list.assign(fault.begin(), fault.end());
     for (const std::vector<int>& text : all_to_all(ranks, letters))
+        // From the lowest rank that has found a fault
         if (!text.empty()) throw DoesNotFit(std::string(text.begin(), text.end()));
 }
 

@@ -20,6 +20,8 @@ bool same(const Helmholtz& a, const Helmholtz& b) {
 }  // namespace
 
 void BoxInverse::set(const BoxOperator& to) {
+    // Plans and arrays depend on the plane alone, factors on alpha and beta too: a matrix that has
+    // kept its coefficients costs neither.
     const bool new_plane = !solve_ || !same(operator_.plane, to.plane);
     if (new_plane) solve_ = std::make_unique<SeparableSolve>(to.plane, rows_.pencils());
     if (new_plane || !same(operator_.problem, to.problem)) solve_->factorise(to.problem);
@@ -45,6 +47,7 @@ void BoxInverse::divide_by_height(double* values) const {
 
 void BoxInverse::apply(const Foam::solveScalarField& r, Foam::solveScalarField& x) {
     double* values = solve_->values();
+    // s A x = s r: the operator is that of the matrix times its sign.
     rows_.gather([&](int c) { return operator_.sign * r[c]; }, values);
     double level = 0.0;
     if (operator_.reference < 0) {
@@ -52,12 +55,15 @@ void BoxInverse::apply(const Foam::solveScalarField& r, Foam::solveScalarField& 
         solve_->solve();
     } else {
         double sum = 0.0;
+        // sum r = delta x_ref
         for (const double value : r) sum += operator_.sign * value;
         box_.ranks.sum(&sum, 1);
         double* at_reference = reference_value();
+        // L x = r - (sum r) e, whose right-hand side sums to zero
         if (at_reference) *at_reference -= sum;
         divide_by_height(values);
         solve_->solve();
+        // x_ref = (sum r)/delta; known on one rank, zero on the others.
         level = at_reference ? sum / operator_.stiffening - *at_reference : 0.0;
         box_.ranks.sum(&level, 1);
     }

@@ -35,12 +35,15 @@ std::vector<int> first_row(const Neighbours& of) {
     const auto corner =
         std::find_if(of.begin(), of.end(), [](const auto& list) { return list.size() == 2; });
     if (corner == of.end()) throw DoesNotFit("no cell is a corner, with 2 neighbours");
+    // The corner with the smallest number, towards its neighbour with the smaller one
     std::vector<int> row = {static_cast<int>(corner - of.begin()), corner->front()};
+    // Cells at a side have three neighbours: one before, one inside with four, one ahead.
     while (of[row.back()].size() == 3) {
         const int last = row.back(), before = row[row.size() - 2];
         const auto next = std::find_if(of[last].begin(), of[last].end(), [&](int cell) {
             return cell != before && of[cell].size() < 4;
         });
+        // A boundary that never meets a corner would be followed for ever.
         if (next == of[last].end() || row.size() == of.size())
             throw DoesNotFit("the boundary through " + cell_name(last) +
                              " does not end at a corner");
@@ -77,6 +80,7 @@ void check_neighbours(const CellFaces& faces, const BoxNumbering& box) {
 void check_complete(const CellFaces& faces, const BoxNumbering& box) {
     const int nx = box.cells[0], ny = box.cells[1];
     const int between = static_cast<int>(faces.low.size());
+    // nx (ny - 1) + ny (nx - 1) faces: with fewer the box would have slits.
     if (nx * ny != faces.count || between != 2 * nx * ny - nx - ny)
         throw DoesNotFit("its " + std::to_string(faces.count) +
                          " cells are not one box of rows and columns");

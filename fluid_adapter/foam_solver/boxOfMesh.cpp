@@ -13,6 +13,7 @@ BoxOfMesh::BoxOfMesh(const Foam::lduMesh& mesh)
 const BoxOfMesh& BoxOfMesh::of(const Foam::lduMatrix& matrix) {
     if (!matrix.mesh().hasDb()) throw DoesNotFit("it belongs to a coarse level and not to a mesh");
     const Foam::objectRegistry& registry = matrix.mesh().thisDb();
+    // Kept with the mesh: numbering needs the faces of all ranks, and is done once.
     if (const auto* known = registry.findObject<BoxOfMesh>(typeName)) return *known;
     return store(new BoxOfMesh(matrix.mesh()));
 }

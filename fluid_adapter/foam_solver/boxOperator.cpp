@@ -37,6 +37,7 @@ struct Reading {
         const double h = side < 2 || height.empty() ? 1.0
                          : side == 2                ? height.front()
                                                     : height.back();
+        // The side is half a cell away: 2 c_y/g_j instead of 2 c_y/(g_j + g_{j+1}), and over g_j.
         return 2.0 * mean[side / 2] / (h * h);
     }
     /// The coefficient between rows j and j + 1.
@@ -85,6 +86,7 @@ bool find_axis(const BoxCells& box, PatchCoefficient& found) {
     const int rows = std::abs(box.row(place) - box.row(found.beyond));
     found.axis = rows == 0 ? 0 : 1;
     const int apart = columns + rows;
+    // From one end of the axis to the other
     found.closes = apart == box.cells[found.axis] - 1;
     return (columns == 0 || rows == 0) && (apart == 1 || found.closes);
 }
@@ -98,6 +100,7 @@ std::vector<PatchCoefficient> patch_coefficients(const SolverMatrix& system, con
         if (!fault.empty()) break;
         const Foam::labelUList& cells = system.matrix.lduAddr().patchAddr(patch);
         forAll(cells, face) {
+            // OpenFOAM subtracts boundary coefficients, so the entry of the matrix is minus that.
             PatchCoefficient found{cells[face], box.beyond[patch][face],
                                    -system.boundary[patch][face], 0, false};
             if (!find_axis(box, found))
@@ -129,6 +132,7 @@ std::array<AxisSum, 2> sum_axes(const SolverMatrix& system, const BoxCells& box,
                                 const std::vector<PatchCoefficient>& patches) {
     std::array<AxisSum, 2> sums{};
     for_each_inner(system, box, [&](int axis, int, int, double value) {
+        // Entries are -s c.
         sums[axis].inner -= value;
         ++sums[axis].inner_faces;
     });
@@ -148,6 +152,7 @@ void read_means(const SolverMatrix& system, const BoxCells& box,
     const std::array<AxisSum, 2> sums = sum_axes(system, box, patches);
     for (int axis = 0; axis < 2; ++axis) {
         const double closing = sums[axis].closing_faces;
+        // Each face of a cyclic side is found from both ends.
         if (closing != 0.0 && closing != 2 * box.cells[1 - axis])
             throw DoesNotFit(std::string("cyclic patches cover only part of the sides normal to ") +
                              axis_names[axis]);
@@ -195,6 +200,7 @@ bool are_equal(const std::vector<double>& values) {
 }
 
 double most_frequent(std::vector<double> values) {
+    // The longest run of values that are equal to coefficient_tolerance
     std::sort(values.begin(), values.end());
     double found = values[0];
     for (std::size_t j = 0, longest = 0; j < values.size();) {
@@ -212,6 +218,7 @@ void read_heights(const SolverMatrix& system, const BoxCells& box,
                   const std::vector<PatchCoefficient>& patches, Reading& reading) {
     const RowMeans rows = row_means(system, box, patches, reading.sign);
     if (reading.cyclic[1] || (are_equal(rows.along) && are_equal(rows.across))) return;
+    // c along x is g_j c_x
     const double reference = most_frequent(rows.along);
     for (const double along : rows.along) {
         const double height = along / reference;
@@ -220,6 +227,7 @@ void read_heights(const SolverMatrix& system, const BoxCells& box,
     }
     double sum = 0.0;
     for (std::size_t j = 0; j < rows.across.size(); ++j)
+        // c_y of each pair of rows, from 2 c_y/(g_j + g_{j+1})
         sum += 0.5 * (reading.height[j] + reading.height[j + 1]) * rows.across[j];
     reading.mean = {reference, sum / static_cast<double>(rows.across.size())};
 }
@@ -235,11 +243,13 @@ void read_excess(const SolverMatrix& system, const BoxCells& box,
         largest = std::max(largest, std::abs(excess[c]));
     }
     for_each_inner(system, box, [&](int, int low, int high, double value) {
+        // s (diagonal + all other entries): the sum of the row, since these are -s c
         excess[low] += s * value;
         excess[high] += s * value;
     });
     for (const PatchCoefficient& of : patches) excess[of.cell] += s * of.value;
     box.ranks.max(&largest, 1);
+    // Of the largest diagonal of all ranks, so that all judge alike
     reading.noise = rounding * largest;
 }
 
@@ -261,6 +271,7 @@ void take_reference(const BoxCells& box, Reading& reading) {
     }
     const bool here = with_excess == 1.0;
     box.ranks.sum(&with_excess, 1);
+    // A single cell is neither a side nor alpha.
     if (with_excess != 1.0) return;
     box.ranks.max(last, 2);
     reading.reference = static_cast<int>(last[0]);
@@ -282,6 +293,7 @@ void read_sides(const BoxCells& box, Reading& reading) {
     }
     box.ranks.sum(sums, 6);
     for (int side = 0; side < 4; ++side)
+        // Means over the side without its two corners
         reading.at_side[side] = sums[side] / ((side < 2 ? ny : nx) - 2);
     reading.inside = sums[4] / (static_cast<double>(nx - 2) * (ny - 2));
     reading.everywhere = sums[5] / (static_cast<double>(nx) * ny);
@@ -291,6 +303,8 @@ void read_sides(const BoxCells& box, Reading& reading) {
 Reading read(const SolverMatrix& system, const BoxCells& box, bool rows_differ) {
     Reading reading;
     const std::vector<PatchCoefficient> patches = patch_coefficients(system, box);
+    // Each step needs those before it: the sign, then heights, then the excess, of which a
+    // reference must be taken out before it is divided and sorted by sides.
     read_means(system, box, patches, reading);
     if (rows_differ) read_heights(system, box, patches, reading);
     read_excess(system, box, patches, reading);
@@ -303,15 +317,18 @@ Reading read(const SolverMatrix& system, const BoxCells& box, bool rows_differ) 
 End end_of(const Reading& reading, double alpha, int axis, bool high) {
     if (reading.cyclic[axis]) return End::periodic;
     const double share = reading.at_side[2 * axis + high] - alpha;
+    // 2 c or nothing; of a side with both conditions what is nearer (nearest_operator).
     return share > 0.5 * reading.held(2 * axis + high) ? End::dirichlet : End::neumann;
 }
 
 BoxOperator operator_of(const Reading& reading, const BoxCells& box) {
+    // What is left inside, where no side adds to it; only 0 lets constants be in the kernel.
     const double alpha = std::abs(reading.inside) <= reading.noise ? 0.0 : reading.inside;
     const auto end = [&](int axis, bool high) { return end_of(reading, alpha, axis, high); };
     BoxOperator found;
     found.sign = reading.sign;
     found.plane.x = {box.cells[0], 1.0, end(0, false), end(0, true)};
+    // c = beta/h2: with beta = c_x and h = 1 along x, h2 = c_x/c_y along y.
     found.plane.y = {box.cells[1], std::sqrt(reading.mean[0] / reading.mean[1]), end(1, false),
                      end(1, true)};
     for (const double height : reading.height)
@@ -325,6 +342,7 @@ BoxOperator operator_of(const Reading& reading, const BoxCells& box) {
 void check_coefficients(const SolverMatrix& system, const BoxCells& box, const Reading& reading) {
     std::string fault;
     const auto check_one = [&](int axis, int cell, int row, double value) {
+        // g_j c_x along x, 2 c_y/(g_j + g_{j+1}) along y
         const double magnitude = reading.height.empty() ? reading.mean[axis]
                                  : axis == 0            ? reading.mean[0] * reading.height_of(row)
                                                         : reading.between_rows(row);
@@ -353,6 +371,7 @@ double expected_excess(const BoxOperator& found, const Reading& reading, int i, 
         return (at == 0 && axis.lower == End::dirichlet) +
                (at == axis.cells - 1 && axis.upper == End::dirichlet);
     };
+    // Only at the ends: `holds` is zero within.
     const double across = reading.held(j == 0 ? 2 : 3);
     return found.problem.alpha + reading.held(0) * holds(x, i) + across * holds(y, j);
 }
@@ -376,6 +395,7 @@ void check_diagonal(const BoxOperator& found, const Reading& reading, const BoxC
         const double expected =
             expected_excess(found, reading, box.column(box.place[c]), box.row(box.place[c]));
         const double off = std::abs(reading.excess[c] - expected);
+        // Also where two conditions meet on one side: `at_side` is a mean.
         if (off > coefficient_tolerance * expected + reading.noise)
             fault = misfit(found, reading, box, static_cast<int>(c), expected);
     }

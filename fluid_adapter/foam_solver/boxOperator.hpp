@@ -39,10 +39,10 @@ struct BoxOperator {
     int reference = -1;       ///< place of the cell with delta; -1: none
     double stiffening = 0;    ///< delta
 
-    /// Constants are in the kernel of the operator without the reference.
     /// g_j of row j.
     double height(int j) const { return plane.y.size(j) / plane.y.spacing; }
 
+    /// Constants are in the kernel of the operator without the reference.
     bool floating() const {
         return problem.alpha == 0.0 && plane.x.has_zero_mode() && plane.y.has_zero_mode();
     }

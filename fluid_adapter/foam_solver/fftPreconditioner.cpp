@@ -14,6 +14,7 @@ const Foam::lduMatrix::preconditioner::addsymMatrixConstructorToTable<FftPrecond
 const BoxOfMesh& box_for(const Foam::lduMatrix::solver& solver) {
     try {
         const BoxOfMesh& box = BoxOfMesh::of(solver.matrix());
+        // For every solve, as coefficients may have changed since the last one
         box.inverse(solver.fieldName())
             .set(nearest_operator(
                 {solver.matrix(), solver.interfaceBouCoeffs(), solver.interfaces()}, box.cells()));

@@ -54,6 +54,7 @@ Foam::solverPerformance FftSolver::scalarSolve(Foam::solveScalarField& psi,
     Foam::solveScalarField residual(psi.size()), correction(psi.size());
 
     matrix_.Amul(correction, psi, interfaceBouCoeffs_, interfaces_, component);
+    // OpenFOAM's own norm, so that tolerance and relTol mean what they mean for other solvers.
     const Foam::scalar norm = normFactor(psi, source, correction, residual);
     performance.initialResidual() = residual_sum(residual, psi, source, component) / norm;
     performance.finalResidual() = performance.initialResidual();
@@ -62,6 +63,7 @@ Foam::solverPerformance FftSolver::scalarSolve(Foam::solveScalarField& psi,
     while (performance.nIterations() < minIter_ ||
            (halved && performance.nIterations() < maxIter_ &&
             !performance.checkConvergence(tolerance_, relTol_))) {
+        // psi += A^-1 (source - A psi)
         inverse.apply(residual, correction);
         psi += correction;
         const Foam::scalar before = performance.finalResidual();

@@ -27,6 +27,7 @@ LineSolve::LineSolve(const AxisOperator& across, const AxisOperator& along, Mode
       stride_(stride),
       has_constants_(mu == 0.0 && modes.first == 0 && modes.count > 0 && across.has_zero_mode() &&
                      along.has_zero_mode()) {
+    // mu_k + mu_l of the modes of this rank, which may hold a part of the line
     for (int k = 0; k < modes.count; ++k) mu_.push_back(across.eigenvalue(modes.first + k) + mu);
     if (!along_.periodic()) return;
     w_.resize(of_w(open_length()));
@@ -38,6 +39,7 @@ void LineSolve::factorise(const Helmholtz& problem, double normalisation) {
     singular_ = problem.alpha == 0.0 && has_constants_;
     constants_.assign(singular_ ? along_.cells : 0, 0.0);
     normalisation_ = normalisation;
+    // Over r = beta/h2: diagonals (alpha/beta + mu + L_jj) h2, and s = h2/(beta normalisation)
     const double per_r = 1.0 / along_.coupling();
     scale_ = per_r / (problem.beta * normalisation);
     std::vector<double> shift;
@@ -50,6 +52,7 @@ void LineSolve::factorise(const Helmholtz& problem, double normalisation) {
         e_.compute(shift, rows_.front().diagonal, rows_[1].diagonal, rows_.back().diagonal,
                    open_length());
     if (!along_.periodic()) return;
+    // d_{n-1}
     for (double& d : shift) d += along_.diagonal(along_.cells - 1) * per_r;
     close_the_ring(shift);
 }
@@ -62,6 +65,7 @@ std::vector<EliminationRow> LineSolve::rows_over_r(double per_r) const {
             rows.push_back({1.0, along_.diagonal(j) * per_r, 1.0});
             continue;
         }
+        // g_j = h_j/h, a_j = h/d_j; the face of a dirichlet end is half a cell away: h/(h_j/2)
         const double h = along_.spacing, size = along_.size(j) / h;
         const auto at_end = [&](End end) { return end == End::dirichlet ? 2.0 / size : 0.0; };
         const bool last = j + 1 == along_.cells;
@@ -77,6 +81,7 @@ void LineSolve::close_the_ring(const std::vector<double>& diagonal) {
     const int last = open_length() - 1;
     for (int j = 0; j <= last; ++j)
         e_.for_row(j, [&](int begin, int end, const double* e) {
+            // e_first + e_last: the neighbours of the last unknown on both sides of it
             const double given = j == 0 || j == last ? 1.0 : 0.0;
             for (int k = begin; k < end; ++k)
                 w_[of_w(j) + k] = ((j > 0 ? w_[of_w(j - 1) + k] : 0.0) + given) * e[k - begin];
@@ -87,6 +92,7 @@ void LineSolve::close_the_ring(const std::vector<double>& diagonal) {
 }
 
 void LineSolve::up(int j, double* values) {
+    // f of the mode of constants, before the recurrence overwrites it
     if (singular_) constants_[j] = values[at(j)];
     if (j >= open_length()) return;
     double* row = values + at(j);
@@ -118,6 +124,7 @@ double LineSolve::turn(double* values) {
 /// x_{n-1} of a periodic axis, which needs all of z.
 void LineSolve::close_last(double* values) {
     const int n = along_.cells;
+    // Down to z_0, so that `down` has only x' = z + w x_{n-1} left to do.
     for (int j = n - 3; j >= 0; --j) substitute(j, values + at(j), values + at(j + 1));
     double* last = values + at(n - 1);
     // x_{n-1} = (s f_{n-1} + z_0 + z_{n-2})/(d_{n-1} - w_0 - w_{n-2})
@@ -136,6 +143,7 @@ void LineSolve::down(int j, double* values) {
         substitute(j, values + at(j), values + at(j + 1));
     }
     if (!singular_) return;
+    // Nothing reads row j + 1 any more: mode 0 gets the solution that `turn` has found.
     if (j < last) values[at(j + 1)] = constants_[j + 1];
     if (j == 0) values[0] = constants_[0];
 }
@@ -147,6 +155,7 @@ double LineSolve::solve_constants() {
     const auto size = [&](int j) { return along_.stretched() ? rows_[j].size : 1.0; };
     double mean = 0.0, length = 0.0;
     for (int j = 0; j < n; ++j) length += size(j);
+    // Only an f without mean has a solution; the mean is what `turn` returns.
     for (int j = 0; j < n; ++j) mean += size(j) * constants_[j] / length;
     double slope = 0.0, total = 0.0;
     for (int j = 0; j < n; ++j) {
@@ -154,6 +163,7 @@ double LineSolve::solve_constants() {
         constants_[j] = slope;
         total += slope;
     }
+    // D_{-1}: the D_j = D_{-1} + slope_j of a ring sum to zero.
     const double first = along_.periodic() ? -total / n : 0.0;
     double x = 0.0, sum = 0.0;
     for (int j = 0; j < n; ++j) {
@@ -163,6 +173,7 @@ double LineSolve::solve_constants() {
         if (j + 1 == n) break;
         x = along_.stretched() ? x + slope_above / rows_[j].above : x + slope_above + first;
     }
+    // x has zero mean too, weighted with heights.
     for (double& value : constants_) value -= sum / length;
     return mean / normalisation_;  // mode 0 of a row is its mean times the normalisation
 }
@@ -170,6 +181,7 @@ double LineSolve::solve_constants() {
 ColumnSolve::ColumnSolve(const SeparableOperator& grid, ModeRange modes) : cells_(grid.y.cells) {
     const int nx = grid.x.cells, end = modes.first + modes.count;
     for (int first = modes.first; first < end;) {
+        // A rank's modes may begin and end within a line.
         const int line = first / nx, next = std::min(end, (line + 1) * nx);
         lines_.push_back({LineSolve(grid.x, grid.y, {first - line * nx, next - first},
                                     grid.z.eigenvalue(line), modes.count),

@@ -53,15 +53,18 @@ void EliminationFactors::compute(const std::vector<double>& shift,
         static_cast<int>(std::max_element(shift.begin(), shift.end()) - shift.begin());
     const int last = static_cast<int>(rows.size()) - 1;
     std::vector<double> factors(shift.size());
+    // The mode of the largest d settles first, its neighbours follow: settled modes are one range.
     int begin = stiffest, end = stiffest;  // modes that have settled, and remain so
     for (int j = 0; j <= last; ++j) {
         const auto& [size, diagonal, above] = rows[j];
         const double below = j > 0 ? rows[j - 1].above : 0.0;
         const bool settles =
             j > 0 && j < last && size == 1.0 && diagonal == inner && below == 1.0 && above == 1.0;
+        // A row that differs has factors of its own, and settling begins anew after it.
         if (!settles) begin = end = stiffest;
         // e_j = 1/(g_j s + d_j - a_{j-1}^2 e_{j-1})
         for (int k = 0; k < modes_; ++k)
+            // Settled modes keep their last factor; the recurrence goes on from it later.
             if (k < begin || k >= end)
                 factors[k] = 1.0 / (size * shift[k] + diagonal - below * below * factors[k]);
         if (!settles) {

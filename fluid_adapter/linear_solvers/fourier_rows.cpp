@@ -71,12 +71,15 @@ class Periodic final : public RowTransform::Kind {
     explicit Periodic(int n) : n_(n), plans_(n) {}
 
     void forward(double* a, double* b) override {
+        // z = a + ib
         for (int j = 0; j < n_; ++j) plans_.in[j] = {a[j], b[j]};
         plans_.forward();
         const Complex* Z = plans_.out;
         a[0] = Z[0].re;
         b[0] = Z[0].im;
         for (int k = 1; 2 * k <= n_; ++k) {
+            // With p = Z_k and q = Z_{n-k}: A_k = (p + conj q)/2, B_k = (p - conj q)/2i. R2HC has
+            // the real part at k and the imaginary part at n - k.
             const Complex p = Z[k], q = Z[n_ - k];
             a[n_ - k] = 0.5 * (p.im - q.im);
             b[n_ - k] = 0.5 * (q.re - p.re);
@@ -89,9 +92,11 @@ class Periodic final : public RowTransform::Kind {
         Complex* Z = plans_.in;
         Z[0] = {a[0], b[0]};
         for (int k = 1; 2 * k < n_; ++k) {
+            // Z_k = A_k + i B_k, Z_{n-k} = conj A_k + i conj B_k
             Z[k] = {a[k] - b[n_ - k], a[n_ - k] + b[k]};
             Z[n_ - k] = {a[k] + b[n_ - k], b[k] - a[n_ - k]};
         }
+        // k = n - k: real parts alone
         if (n_ % 2 == 0) Z[n_ / 2] = {a[n_ / 2], b[n_ / 2]};
         plans_.backward();
         for (int j = 0; j < n_; ++j) {
@@ -115,10 +120,12 @@ class SameEnds final : public RowTransform::Kind {
         reorder(a, b);
         plans_.forward();
         const Complex* Z = plans_.out;
+        // k = 0 has no partner: A_0 is the real part of Z_0, B_0 the imaginary one.
         a[mode(0)] = 2.0 * Z[0].re;
         b[mode(0)] = 2.0 * Z[0].im;
         for (int k = 1; 2 * k <= n_; ++k) {
             const Complex p = Z[k], q = Z[n_ - k], w = turns_[k];
+            // 2 A_k and 2 B_k; X_k = 2 Re(w A_k), X_{n-k} = -2 Im(w A_k)
             const Complex A{p.re + q.re, p.im - q.im}, B{p.im + q.im, q.re - p.re};
             a[mode(n_ - k)] = -(w.re * A.im + w.im * A.re);
             b[mode(n_ - k)] = -(w.re * B.im + w.im * B.re);
@@ -132,6 +139,8 @@ class SameEnds final : public RowTransform::Kind {
         Z[0] = {a[mode(0)], b[mode(0)]};
         for (int k = 1; 2 * k <= n_; ++k) {
             const Complex w = turns_[k];
+            // conj(w) (X_k - i X_{n-k}) = 2 A_k, and Z = A + iB again. The factor 2 is part of the
+            // normalisation 2n.
             const Complex A = unturned(a, k, w), B = unturned(b, k, w);
             Z[n_ - k] = {A.re + B.im, B.re - A.im};
             Z[k] = {A.re - B.im, A.im + B.re};
@@ -152,6 +161,7 @@ class SameEnds final : public RowTransform::Kind {
 
     void reorder(const double* a, const double* b) {
         constexpr double sign = odd ? -1.0 : 1.0;
+        // Even places ascending, then odd ones descending; signs of odd places for DST-II
         for (int j = 0; 2 * j < n_; ++j) plans_.in[j] = {a[2 * j], b[2 * j]};
         for (int j = 0; 2 * j + 1 < n_; ++j)
             plans_.in[n_ - 1 - j] = {sign * a[2 * j + 1], sign * b[2 * j + 1]};
@@ -194,12 +204,14 @@ class MixedEnds final : public RowTransform::Kind {
 
     void one_row(double* x) {
         for (int j = 0; j < n_ / 2; ++j) {
+            // z_j = (x_2j + i x_{n-1-2j}) t_j, of a row that is reversed for DST-IV
             const Complex z =
                 odd ? Complex{x[n_ - 1 - 2 * j], x[2 * j]} : Complex{x[2 * j], x[n_ - 1 - 2 * j]};
             plans_.in[j] = product(z, turns_[j]);
         }
         plans_.forward();
         for (int k = 0; k < n_ / 2; ++k) {
+            // X_2k - i X_{n-1-2k} = 2 t_k Z_k
             const Complex y = product(plans_.out[k], turns_[k]);
             x[2 * k] = 2.0 * y.re;
             x[n_ - 1 - 2 * k] = odd ? 2.0 * y.im : -2.0 * y.im;  // the sign of odd modes

@@ -25,6 +25,8 @@ void LayerTransform::forward(double* layers, int count) {
 
 void LayerTransform::backward(double* layers, int count) {
     if (z_) along_z(layers, count, [&](double* a, double* b) { z_->backward(a, b); });
+    // Pairs from the last row on: of an odd number of rows the first has no partner here, in
+    // `forward` the last.
     for (int r = count * rows_ - 1; r >= 0; r -= 2)
         x_.backward(layers + r * columns_, r > 0 ? layers + (r - 1) * columns_ : nullptr);
 }
@@ -32,6 +34,7 @@ void LayerTransform::backward(double* layers, int count) {
 /// transform(first, second) for all pairs of columns; `second` may be null.
 template <class Transform>
 void LayerTransform::along_z(double* layers, int count, Transform transform) {
+    // A block of columns is copied to contiguous lines and back, each line of cache once.
     for (double* layer = layers; layer < layers + count * rows_ * columns_;
          layer += rows_ * columns_)
         for (std::size_t i = 0; i < columns_; i += block) {

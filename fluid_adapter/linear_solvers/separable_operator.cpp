@@ -20,6 +20,7 @@ double phase(const AxisOperator& axis, int k) {
     if (axis.periodic()) return pi * k / axis.cells;
     const double shift =
         0.5 * (axis.lower == End::dirichlet) + 0.5 * (axis.upper == End::dirichlet);
+    // s of mu_k: 0, 1/2 or 1, by the number of dirichlet ends
     return pi * (k + shift) / (2.0 * axis.cells);
 }
 

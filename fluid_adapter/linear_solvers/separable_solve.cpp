@@ -62,18 +62,22 @@ double SeparableSolve::solve() {
 double SeparableSolve::solve(const LayerWork& fill, const LayerWork& take) {
     const auto none = [](int) {};
     if (!pencils_->in_place()) {
+        // Elimination needs the modes of all layers: a transpose before and one after it.
         forward(fill, none);
         pencils_->to_columns();
         const double taken = columns_.solve(pencils_->columns());
         pencils_->to_rows();
         backward(none, take);
+        // Only the rank with mode 0 knows the mean.
         return free_constants_ ? pencils_->from_mode_zero(taken) : 0.0;
     }
     double* values = pencils_->columns();
+    // On one rank elimination goes up with the transforms, and down with those back.
     forward(fill, [&](int j) { columns_.up(j, values); });
     const double taken = columns_.turn(values);
     int next = pencils_->row_count() - 1;  // next layer on the way down
     const auto complete = [&](int j) {
+        // down(j - 1) completes layer j, and down(0) also layer 0.
         for (; next >= std::max(j - 1, 0); --next) columns_.down(next, values);
     };
     backward(complete, take);

@@ -15,6 +15,7 @@ void BoundaryBlocks::factorise(const FluidField& field, const std::vector<Immers
     images_.resize(points.boundary_points());
     on_slots_.assign(points.slots(), 0.0);
     on_private_.assign(points.slots(), 0.0);
+    // 1/m_c = per_mass / (relative volume of the cell), which `mark` divides by
     const double per_mass = 1.0 / field.reference_mass();
     for (int g = 0; g < points.grains(); ++g) {
         factors_.begin_matrix();
@@ -35,6 +36,7 @@ bool BoundaryBlocks::meets_image(const CellGrid& grid, int g) const {
     const auto begin = points_->box.begin() + points_->boundary_begin[g];
     const auto end = points_->box.begin() + points_->boundary_begin[g + 1];
     if (begin == end) return false;
+    // Boxes are not wrapped, so the extent of all of them shows a turn.
     StencilBox all = *begin;
     for (auto box = begin; box != end; ++box)
         all = {std::min(all.low_x, box->low_x), std::max(all.high_x, box->high_x),
@@ -48,16 +50,20 @@ void BoundaryBlocks::add_row(int begin, int p, double per_mass, PointCoupling& c
     const CollocationPoints& points = *points_;
     mark(p, coupling);
     coupling.begin_row();
+    // From the diagonal to the left: `first` ends as the leftmost entry, where the profile begins.
     row_.assign(p - begin + 1, 0.0);
     int first = p;
     for (int q = p; q >= begin; --q) {
         if (!meets_image_ && !points.box[p].meets(points.box[q])) continue;
         const double all = per_mass * overlap(on_slots_, q);
+        // The block has all cells of the pair; the coupling only the private ones, since the
+        // product with the shared ones goes through cells (PointCoupling::apply).
         const double own = uses_shared_ ? per_mass * overlap(on_private_, q) : all;
         row_[q - begin] = all;
         if (all != 0.0) first = q;
         if (own != 0.0 || q == p) coupling.add(q, own);
     }
+    // What `mark` has set, one by one: the vectors have the slots of all grains.
     for (int s = points.stencil[p]; s < points.stencil[p + 1]; ++s)
         on_slots_[points.slot[s]] = on_private_[points.slot[s]] = 0.0;
     std::copy(row_.begin() + (first - begin), row_.end(), factors_.add_row(first - begin));
@@ -98,6 +104,8 @@ Eigen::Matrix3d BoundaryBlocks::tie(int g) {
     }
     const double mass = products(0, 0), x = products(0, 1), y = products(0, 2);
     Eigen::Matrix3d tied;
+    // G acts on x and y separately, so that with <a, b> = a^T G^-1 b
+    // T^T G^-1 T = [<1,1> 0 -<1,r_y>; 0 <1,1> <1,r_x>; -<1,r_y> <1,r_x> <r_x,r_x> + <r_y,r_y>]
     tied << mass, 0.0, -y,  //
         0.0, mass, x,       //
         -y, x, products(1, 1) + products(2, 2);
@@ -106,6 +114,7 @@ Eigen::Matrix3d BoundaryBlocks::tie(int g) {
 
 void BoundaryBlocks::solve(const double* r, double* z) {
     std::copy_n(r, 2 * points_->boundary_points(), z);
+    // x and y are two right-hand sides of one matrix.
     for (int g = 0; g < points_->grains(); ++g)
         factors_.solve<2>(g, z + 2 * points_->boundary_begin[g]);
 }
@@ -113,6 +122,7 @@ void BoundaryBlocks::solve(const double* r, double* z) {
 void BoundaryBlocks::subtract_images(const Planar* q, double* z) const {
     for (int g = 0; g < points_->grains(); ++g)
         for (int p = points_->boundary_begin[g]; p < points_->boundary_begin[g + 1]; ++p) {
+            // T q = (q_x - q_s r_y, q_y + q_s r_x), with G^-1 of 1, r_x and r_y from `tie`
             z[2 * p] -= q[g].x() * images_[p][0] - q[g].z() * images_[p][2];
             z[2 * p + 1] -= q[g].y() * images_[p][0] + q[g].z() * images_[p][1];
         }

@@ -26,8 +26,10 @@ struct AxisStencil {
 int node_behind(const CellGrid& grid, int axis, double coordinate, int out) {
     if (grid.stretched(axis)) {
         const int below = grid.layer_below(axis, coordinate);
+        // A coordinate at a centre has that node behind it both ways, as with floor and ceil.
         return out > 0 || grid.centre(axis, below) == coordinate ? below : below + 1;
     }
+    // In cells from the centre of layer 0.
     const double place = (coordinate - grid.origin[axis]) / grid.spacing[axis] - 0.5;
     return static_cast<int>(out > 0 ? std::floor(place) : std::ceil(place));
 }
@@ -64,6 +66,7 @@ AxisStencil quadratic_outward(const CellGrid& grid, int axis, double coordinate,
         return stencil;
     }
     const double place = (coordinate - grid.origin[axis]) / grid.spacing[axis] - 0.5;
+    // From the inner node along `out`, in cells: 0 <= t < 1; Lagrange weights of 0, 1 and 2.
     const double t = (place - inner) * out;
     stencil.weight = {0.5 * (1.0 - t) * (2.0 - t), t * (2.0 - t), -0.5 * t * (1.0 - t)};
     return stencil;
@@ -75,6 +78,7 @@ AxisStencil linear(const CellGrid& grid, int axis, double coordinate) {
     const int lower = grid.layer_below(axis, coordinate);
     AxisStencil stencil{{lower, lower + 1, 0}, {}, 2};
     if (!fits(grid, axis, stencil)) return {};
+    // In cells from the centre of `lower`.
     double t = (coordinate - grid.origin[axis]) / grid.spacing[axis] - 0.5 - lower;
     if (grid.stretched(axis)) {
         const double below = grid.centre(axis, lower), above = grid.centre(axis, lower + 1);
@@ -122,6 +126,7 @@ class Inside {
  public:
     explicit Inside(const ImmersedGrain& grain)
         : grain_(grain), to_body_(grain.orientation.transpose()) {
+        // A little less than the core, so that rounding does not take in what `contains` refuses.
         constexpr double surely = 1.0 - 1e-9;
         const double core = surely * grain.shape->core_radius(grain.radius);
         core_squared_ = core * core;
@@ -141,6 +146,7 @@ class Inside {
 /// are then cut to one turn; 0 for all others [m].
 double cut_to_a_turn(const CellGrid& grid, int axis, Layers& layers) {
     if (!grid.cyclic(axis) || layers.high - layers.low < grid.counts[axis]) return 0.0;
+    // Otherwise its first and last layers would be the same cells, visited twice.
     layers.high = layers.low + grid.counts[axis] - 1;
     return grid.length(axis);
 }
@@ -183,18 +189,24 @@ void PointPlacement::place(const FluidField& field, const std::vector<ImmersedGr
                            CollocationPoints& points) {
     if (field.grid().dimension != 2)
         throw std::invalid_argument("multiplier points are supported in two dimensions only");
+    // Set to -1 once; `forget` undoes what a window sets, so that none passes over all cells.
     owner_.resize(field.local_cells(), -1);
     depth_.resize(field.local_cells());
     slot_.resize(field.local_cells(), -1);
 
     find_candidates(field, grains);
+    // Rule 1 for the sides of the box
     apply_wall_rule(field.grid(), grains);
     find_pairs(field.grid(), grains);
+    // Rule 1 for bodies without boundary points, and rules 2 and 3. `compare` drops points of its
+    // first grain only: the two calls make rule 3 drop both points.
     for (const auto& [a, b] : pairs_) {
         compare(field.grid(), grains, a, b);
         compare(field.grid(), grains, b, a);
     }
+    // Rule 4. It also sets slot_ of the cells in use, by which collect_interior knows rule 6.
     collect_boundary(field, grains, points);
+    // Rule 5
     claim_cells(field, grains);
     collect_interior(field, grains, points);
     count_dropped(points);
@@ -207,6 +219,8 @@ void PointPlacement::find_candidates(const FluidField& field,
     first_.assign(1, 0);
     local_size_.clear();
     for (const ImmersedGrain& grain : grains) {
+        // Where rows grow the spacing is that of the longest edge: points closer than a cell to
+        // each other would make the problem ill-conditioned.
         local_size_.push_back(field.grid().largest_size(grain.position, grain.radius));
         if (rules_.boundary && grain.has_boundary_points)
             for (const SurfacePoint& point :
@@ -235,6 +249,7 @@ void PointPlacement::apply_wall_rule(const CellGrid& grid,
                 const double x = grains[g].position[axis] + candidates_[c].arm[axis];
                 const double from_lower = x - grid.origin[axis];
                 const double from_upper = grid.length(axis) - from_lower;
+                // Open and cyclic sides drop no points.
                 const double least = rules_.wall_distance * size_at(grid, axis, x);
                 if ((grid.sides[axis][0] == Side::wall && from_lower < least) ||
                     (grid.sides[axis][1] == Side::wall && from_upper < least))
@@ -250,6 +265,7 @@ void PointPlacement::find_pairs(const CellGrid& grid, const std::vector<Immersed
     });
     const double reach = walls ? std::max(rules_.spacing, rules_.wall_distance) : rules_.spacing;
     pairs_ = near_pairs(grid, grains, rules_.boundary ? reach * largest : 0.0);
+    // Only grains that overlap can contain the same cells: rule 5 need not look at the others.
     overlapped_.assign(grains.size(), 0);
     for (const auto& [a, b] : pairs_) {
         const double apart = grid.nearest_image(grains[a].position - grains[b].position).norm();
@@ -266,6 +282,8 @@ void PointPlacement::keep_off_wall(const CellGrid& grid, const std::vector<Immer
     const double outer = grains[a].radius + wall.radius + reach;
     const Eigen::Matrix3d to_body = wall.orientation.transpose();
     const auto most = [&](int axis) {
+        // `apart` is the nearest image, at most L/2 away: image i is at least (|i| - 1/2) L away,
+        // and out of reach where that exceeds `outer`.
         return grid.cyclic(axis) ? static_cast<int>(outer / grid.length(axis) + 0.5) : 0;
     };
     for (int i = -most(0); i <= most(0); ++i)
@@ -293,11 +311,14 @@ void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGra
     for (int c = first_[a]; c < first_[a + 1]; ++c) {
         Candidate& candidate = candidates_[c];
         const Eigen::Vector3d from_b = apart + candidate.arm;
+        // Rule 1 comes first, for the counts too.
         if (candidate.fate == Fate::near_wall || from_b.squaredNorm() > outer * outer) continue;
         const Eigen::Vector3d in_b = to_body * from_b;
+        // Points of b lie on its surface: farther from b than `reach`, none of them can be near.
         if (grains[b].shape->least_distance(in_b, grains[b].radius) > reach) continue;
         if (grains[b].shape->contains(in_b, grains[b].radius)) candidate.fate = Fate::inside_grain;
         if (candidate.fate == Fate::inside_grain) continue;
+        // All points of b, dropped ones too: otherwise the order of the pairs would matter.
         for (int other = first_[b]; other < first_[b + 1]; ++other)
             if ((from_b - candidates_[other].arm).squaredNorm() < reach * reach)
                 candidate.fate = Fate::near_point;
@@ -320,6 +341,7 @@ void PointPlacement::collect_boundary(const FluidField& field,
     points.arm_y.clear();
     points.box.clear();
     points.stencil.assign(1, 0);
+    // At most; cut to what is used at the end.
     points.slot.resize(cells_of_stencil * candidates_.size());
     points.weight.resize(points.slot.size());
     points.stencilled.clear();
@@ -370,6 +392,7 @@ void PointPlacement::collect(const FluidField& field, const ImmersedGrain& grain
         candidate.fate = Fate::off_grid;
         return;
     }
+    // The rank that owns the cell around the point has the point.
     const int home =
         field.cell(grid.wrapped(0, grid.layer(0, x[0])), grid.wrapped(1, grid.layer(1, x[1])), 0);
     const bool owned = home >= 0 && field.owns(home);
@@ -378,11 +401,13 @@ void PointPlacement::collect(const FluidField& field, const ImmersedGrain& grain
         const int row = grid.wrapped(1, along[1].layer[n]);
         for (int m = 0; m < along[0].nodes; ++m) {
             const double weight = along[0].weight[m] * along[1].weight[n];
+            // A point on a line of centres leaves the cells beside it to the interior (rule 6).
             if (weight == 0.0) continue;
             const int column = grid.wrapped(0, along[0].layer[m]);
             const int cell = cells.at(column, row);
             if (cell < 0) continue;  // beyond the halo: of another rank's point
             int slot = slot_[cell];
+            // Also for a point of another rank: rule 6 is about points of all ranks.
             if (slot < 0) slot = new_slot(cell, grid.relative_volume(column, row), points);
             if (!owned) continue;
             points.slot[next] = slot;
@@ -410,6 +435,7 @@ void PointPlacement::claim_cells(const FluidField& field,
         if (!overlapped_[g]) continue;
         for_cells_inside(field, grains[g], [&](const InteriorCell& point) {
             const double depth = relative_depth(grains[g], point);
+            // Smaller is deeper: |r|^2/R_h^2 is 0 in the middle and 1 on a disc's surface.
             const int rival = owner_[point.cell];
             if (rival >= 0 && (depth > depth_[point.cell] ||
                                (depth == depth_[point.cell] && grains[g].id > grains[rival].id)))
@@ -431,6 +457,7 @@ void PointPlacement::collect_interior(const FluidField& field,
         if (g + 1 < grains.size()) expect(field, grains[g + 1]);
         for_cells_inside(field, grains[g], [&](const InteriorCell& point) {
             const bool mine = !overlapped_[g] || owner_[point.cell] == static_cast<int>(g);
+            // Rule 5, rule 6, and the rank's own: owned cells have the first local indices.
             if (mine && slot_[point.cell] < 0 && point.cell < owned)
                 points.interior.push_back(point);
         });

@@ -18,6 +18,7 @@ void ConstrainedFlow::begin(SaddleOperator& system, const VelocityPointers& velo
     multipliers_.assign_zero(system.rows(), system.grains());
     impulses_.assign(system.grains(), Planar::Zero());
     slip_.resize(system.rows());
+    // At L = 0: U = A^-1 P and the slip s = B u3 - T U.
     sum_momenta();
     move_grains();
     import_velocity();
@@ -31,6 +32,7 @@ void ConstrainedFlow::begin(SaddleOperator& system, const VelocityPointers& chan
 
 void ConstrainedFlow::find_border() {
     border_.clear();
+    // On one rank no cell is known to others.
     if (!field().has_halo()) return;
     for (int slot = 0; slot < points().slots(); ++slot)
         if (const int cell = points().stencilled[slot].cell; field().shares(cell))
@@ -43,7 +45,9 @@ void ConstrainedFlow::sum_momenta() {
     by_grain_.resize(system_->grains());
     for (std::size_t g = 0; g < by_grain_.size(); ++g)
         by_grain_[g] = sum_velocity(points(), velocity_, static_cast<int>(g));
+    // Each rank has the sum over the cells it owns.
     system_->sum_over_holders(by_grain_);
+    // P = P of the grain + sum m (u_x, u_y, r x u), as in covered_fluid.hpp
     for (std::size_t g = 0; g < by_grain_.size(); ++g) momentum_[g] += m * by_grain_[g];
 }
 
@@ -71,6 +75,7 @@ void ConstrainedFlow::move_grains() {
 void ConstrainedFlow::push(const std::vector<Planar>& impulses) {
     by_grain_.resize(system_->grains());
     for (std::size_t g = 0; g < by_grain_.size(); ++g) {
+        // P += J, U += A^-1 J, and the slip loses T A^-1 J. The next solve goes on from L.
         momentum_[g] += impulses[g];
         by_grain_[g] = system_->inverse_inertia()[g] * impulses[g];
         motions_[g] += by_grain_[g];
@@ -79,6 +84,7 @@ void ConstrainedFlow::push(const std::vector<Planar>& impulses) {
 }
 
 void ConstrainedFlow::add(const Multipliers& w) {
+    // The slip is not recomputed: uzawa_cg has updated it along with w.
     for (std::size_t i = 0; i < w.values.size(); ++i) multipliers_.values[i] += w.values[i];
     for (std::size_t g = 0; g < w.on_grains.size(); ++g)
         multipliers_.on_grains[g] += w.on_grains[g];
@@ -86,6 +92,9 @@ void ConstrainedFlow::add(const Multipliers& w) {
 }
 
 void ConstrainedFlow::impose() {
+    // What a grain gains is what the fluid loses: T^T L at the points, and
+    // sum m (u - U - omega x r) in the cells it covers. So momentum is kept to rounding,
+    // whatever slip is left.
     spread_multipliers();
     by_grain_.resize(system_->grains());
     BoundaryOperator(points()).sum_by_grain(multipliers_.values.data(), by_grain_.data());
@@ -93,16 +102,19 @@ void ConstrainedFlow::impose() {
         by_grain_[g] += carry_cells(points(), velocity_, static_cast<int>(g), motions_[g],
                                     field().reference_mass());
     system_->sum_over_holders(by_grain_);
+    // u -= m^-1 B^T L. By rule 6 of collocation_points.hpp none of these cells is covered.
     const double per_mass = 1.0 / field().reference_mass();
     for (int slot = 0; slot < points().slots(); ++slot) {
         expect_velocity(slot);
         const StencilCell& at = points().stencilled[slot];
+        // cells_ has the sums over all ranks, and only the owner applies them.
         if (!field().owns(at.cell)) continue;
         velocity_[0][at.cell] -= per_mass / at.volume * cells_[slot].x;
         velocity_[1][at.cell] -= per_mass / at.volume * cells_[slot].y;
     }
     for (std::size_t g = 0; g < by_grain_.size(); ++g) {
         impulses_[g] += by_grain_[g];
+        // With T^T L in P, L = 0 stands for the same motions: the next solve begins there.
         momentum_[g] += multipliers_.on_grains[g];
     }
     multipliers_.assign_zero(system_->rows(), system_->grains());
@@ -110,6 +122,7 @@ void ConstrainedFlow::impose() {
 
 void ConstrainedFlow::copy_to(GrainChange& change) const {
     change.clear();
+    // All of them are linear in the change. The order is that of `add`.
     for (const std::vector<Planar>* list : {&momentum_, &prescribed_, &motions_, &impulses_})
         for (const Planar& of : *list) change.insert(change.end(), of.begin(), of.end());
     change.insert(change.end(), slip_.begin(), slip_.end());
@@ -125,6 +138,7 @@ void ConstrainedFlow::add(const GrainChange& change, double share) {
 
 /// Asks for the velocity of a later slot's cell.
 void ConstrainedFlow::expect_velocity(int slot) const {
+    // In slots; far enough for memory to answer. No value depends on it.
     constexpr int ahead = 24;
     if (slot + ahead >= points().slots()) return;
     const int cell = points().stencilled[slot + ahead].cell;

@@ -32,6 +32,7 @@ CellSums sum_cells(const CollocationPoints& points, int g) {
 Planar sum_velocity(const CollocationPoints& points, const VelocityPointers& velocity, int g) {
     const double *ux = velocity[0], *uy = velocity[1];
     expect_cells(points, g + 1, ux, uy);
+    // sum V_c (u_x, u_y, r_x u_y - r_y u_x), V_c relative to the reference cell
     double x = 0.0, y = 0.0, moment = 0.0;
     for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
         const InteriorCell& at = points.interior[i];
@@ -43,6 +44,7 @@ Planar sum_velocity(const CollocationPoints& points, const VelocityPointers& vel
 }
 
 Eigen::Matrix3d body_inertia(const ImmersedGrain& grain, const CellSums& sums, double m) {
+    // A = diag(cM, cM, cI) + m [ s0 0 -s2; 0 s0 s1; -s2 s1 s3 ], s = sums
     const double mass = grain.effective_mass + m * sums[0];
     Eigen::Matrix3d inertia;
     inertia << mass, 0.0, -m * sums[2],  //
@@ -58,6 +60,7 @@ Planar carry_cells(const CollocationPoints& points, const VelocityPointers& velo
     double lost_x = 0.0, lost_y = 0.0, moment = 0.0;
     for (int i = points.interior_begin[g]; i < points.interior_begin[g + 1]; ++i) {
         const InteriorCell& point = points.interior[i];
+        // u <- U + omega x r; what the cell loses is m_c (u - U - omega x r).
         const double x = motion.x() - motion.z() * point.arm_y;
         const double y = motion.y() + motion.z() * point.arm_x;
         const double dx = ux[point.cell] - x, dy = uy[point.cell] - y;
@@ -67,6 +70,7 @@ Planar carry_cells(const CollocationPoints& points, const VelocityPointers& velo
         ux[point.cell] = x;
         uy[point.cell] = y;
     }
+    // What the fluid loses the grain gains: part of its multiplier impulse.
     return reference_mass * Planar(lost_x, lost_y, moment);
 }
 

@@ -28,6 +28,7 @@ struct Reach {
 };
 
 Reach reach_of(const CellGrid& grid, const Eigen::Vector3d& centre, const CellIndex& cell) {
+    // Squares of both, axis by axis: a cell is a box with edges along the axes.
     double near = 0.0, far = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         const double off = std::abs(grid.centre(axis, cell[axis]) - centre[axis]);
@@ -42,6 +43,7 @@ Reach reach_of(const CellGrid& grid, const Eigen::Vector3d& centre, const CellIn
 double share_of_cell_in_space(const CellGrid& grid, const ImmersedGrain& grain,
                               const CellIndex& cell) {
     const Reach reach = reach_of(grid, grain.position, cell);
+    // Only cells that the surface cuts need the lines.
     if (reach.farthest <= grain.radius) return 1.0;
     if (reach.nearest >= grain.radius) return 0.0;
     double sum = 0.0;
@@ -74,12 +76,14 @@ Layers layers_of(const CellGrid& grid, const ImmersedGrain& grain) {
 void cover(const FluidField& field, const ImmersedGrain& grain, std::vector<double>& shares) {
     const CellGrid& grid = field.grid();
     const auto [first, last] = layers_of(grid, grain);
+    // The place of a cell is that of the index before it is wrapped: the image at this grain.
     for (int j = first[1]; j <= last[1]; ++j)
         for (int k = first[2]; k <= last[2]; ++k)
             for (int i = first[0]; i <= last[0]; ++i) {
                 const int cell =
                     field.cell(grid.wrapped(0, i), grid.wrapped(1, j), grid.wrapped(2, k));
                 if (cell < 0 || !field.owns(cell)) continue;
+                // Two grains may share a cell; where they overlap their shares could exceed it.
                 shares[cell] = std::min(1.0, shares[cell] + share_of(grid, grain, {i, j, k}));
             }
 }

@@ -64,6 +64,7 @@ ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const Sh
 
 ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     const Shape& shape = *shapes_.at(state.shape);
+    // cM = M - rho_f V(R_h) and cI = I - I_f(R_h) (coupler/shapes/immersed_body.hpp)
     const ImmersedBody body = bodies_(state);
     ImmersedGrain grain;
     grain.id = state.id;
@@ -72,6 +73,7 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     grain.position = {state.position[0], state.position[1], state.position[2]};
     grain.orientation = matrix(rotation(state.orientation));
     grain.effective_mass = body.effective_mass;
+    // About z in the plane; of a sphere it is the same about any axis.
     grain.effective_inertia = body.effective_inertia(2, 2);
     grain.contact_motion = twist_of(state);
     grain.prescribed = state.prescribed;
@@ -79,6 +81,8 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
 }
 
 Vec3 ImmersedStep::driving(const GrainState& state, double step) const {
+    // What holds the grain takes the whole force of the stream: fluid and held grains together take
+    // rho_f a times the volume of the box.
     if (state.prescribed) return {};
     const ImmersedBody body = bodies_(state);
     return (body.fluid_mass - body.displaced_mass) * step * run_.acceleration;
@@ -92,6 +96,7 @@ void ImmersedStep::take(const std::vector<GrainState>& states, const Window& win
         grains_.push_back(immersed(state));
         grains_.back().driving_impulse = driving(state, window.step);
     }
+    // Grains have the numbers below this; plates follow, which get no responses and no kicks.
     states_ = grains_.size();
     prescribe(window);
     for (const ImmersedGrain& plate : plates_.bodies(window.time, window.step))
@@ -106,6 +111,7 @@ void ImmersedStep::prescribe(const Window& window) {
     for (const Moved& moved : moved_grains_) {
         const auto at = index_.find(moved.what);
         if (at == index_.end()) continue;
+        // The mean over the window, as contacts have it.
         grains_[at->second].contact_motion = moved.motion->rate(window.time, window.step);
     }
 }
@@ -114,8 +120,10 @@ void ImmersedStep::take_free(const std::vector<GrainState>& states, const Window
     take(states, window);
     for (std::size_t g = 0; g < states.size(); ++g) {
         Impulse& given = grains_[g].given_impulse;
+        // (M - m_f) g dt: buoyancy is that of R, not of R_h.
         given.linear[1] = -bodies_(states[g]).submerged_mass * run_.gravity * window.step;
         if (!carries_contacts_) continue;
+        // J^n of the last window, a prediction: `push` adds the difference to this window's.
         contact_impulses_[g] = contact_impulse(states[g]);
         given += contact_impulses_[g];
     }
@@ -125,6 +133,8 @@ void ImmersedStep::take_constrained(const std::vector<GrainState>& states, const
     take(states, window);
     for (std::size_t g = 0; g < states.size(); ++g) {
         const GrainState& state = states[g];
+        // U^{n+4/5} has weight and contacts already, so nothing is given; J_h is taken off again in
+        // ImmersedGrain::momentum.
         contact_impulses_[g] = contact_impulse(state);
         grains_[g].announced_impulse = {state.announced_impulse, state.announced_angular_impulse};
     }
@@ -147,6 +157,7 @@ MultiplierResult ImmersedStep::push(const std::vector<GrainState>& with_contacts
             throw std::runtime_error("contact impulses were received twice for grain " +
                                      std::to_string(state.id));
         const Impulse impulse = contact_impulse(state);
+        // Only the change, since the motions contain the impulses of the last round.
         changes_[at->second] = impulse - contact_impulses_[at->second];
         contact_impulses_[at->second] = impulse;
         solved_[at->second] = twist_of(state);
@@ -166,6 +177,7 @@ bool ImmersedStep::answers_for(std::size_t grain) const {
     int index[3] = {};
     for (int axis = 0; axis < grid.dimension; ++axis) {
         const int layer = grid.layer(axis, grains_[grain].position[axis]);
+        // The indices are those of a cell of the grid, so that some rank owns it.
         index[axis] = grid.cyclic(axis) ? grid.wrapped(axis, layer)
                                         : std::clamp(layer, 0, grid.counts[axis] - 1);
     }
@@ -185,6 +197,7 @@ std::vector<FreeResponse> ImmersedStep::responses() const {
 /// Of what is sent, whatever has changed the motions since the contacts were solved.
 double ImmersedStep::mismatch(std::size_t g) const {
     if (!pushed_) return 0.0;
+    // |U' - U| + R |omega' - omega|, with R = (R_h - shift) / (R_h/R)
     const double radius = (grains_[g].radius - run_.surface_shift) / run_.hydrodynamic_radius;
     const Twist motion = constraint_->motion(g);
     return norm(motion.velocity - solved_[g].velocity) +
@@ -198,6 +211,8 @@ FreeResponse ImmersedStep::response(std::size_t g) const {
     response.id = grains_[g].id;
     response.mismatch = mismatch(g);
     if (!grains_[g].prescribed) {
+        // U^F = U' - A_eff^-1 J, with the same A_eff that is sent: a contact solve that finds J
+        // again finds U' as well (FreeResponse in coupler/protocol/records.hpp).
         const Twist pushed = constraint_->moved_by(g, contact_impulses_[g]);
         free = {free.velocity - pushed.velocity, free.spin - pushed.spin};
         response.inertia = constraint_->effective_inertia(g);
@@ -221,6 +236,8 @@ std::vector<Kick> ImmersedStep::kicks() const {
         kick.id = grains_[g].id;
         kick.velocity = motion.velocity;
         kick.angular_velocity = motion.spin;
+        // The driving impulse is in the momentum of step 5, so the balance of the grain needs it
+        // here. The fluid has not lost it: impulse_to_grains is without.
         kick.multiplier_impulse = impulse.linear + grains_[g].driving_impulse;
         kick.multiplier_angular_impulse = impulse.moment;
         kicks.push_back(kick);
@@ -231,6 +248,7 @@ std::vector<Kick> ImmersedStep::kicks() const {
 Impulse ImmersedStep::impulse_to_grains() const {
     Impulse sum;
     for (std::size_t g = 0; g < grains_.size(); ++g)
+        // With plates, which take momentum from the fluid as well; each body on one rank.
         if (answers_for(g)) sum += constraint_->impulse(g);
     return sum;
 }

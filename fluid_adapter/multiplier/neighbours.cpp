@@ -11,6 +11,7 @@ class Bins {
  public:
     Bins(const CellGrid& grid, double reach) : grid_(grid) {
         for (int axis = 0; axis < grid.dimension; ++axis)
+            // Rounded down: a bin is at least as wide as `reach`.
             counts_[axis] = std::max(1, static_cast<int>(grid.length(axis) / reach));
         lists_.resize(static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2]);
     }
@@ -41,6 +42,7 @@ class Bins {
         for (int axis = 0; axis < grid_.dimension; ++axis) {
             double part = (position[axis] - grid_.origin[axis]) / grid_.length(axis);
             if (grid_.cyclic(axis)) part -= std::floor(part);
+            // A body that has left the grid counts to the bin at the side.
             const int i = static_cast<int>(std::floor(part * counts_[axis]));
             index[axis] = std::clamp(i, 0, counts_[axis] - 1);
         }
@@ -50,6 +52,7 @@ class Bins {
     void add_near(std::array<int, 3> index) {
         for (int axis = 0; axis < grid_.dimension; ++axis) {
             const int n = counts_[axis];
+            // With one or two bins around, a bin is its own neighbour, or is met from both sides.
             if (grid_.cyclic(axis)) index[axis] = (index[axis] + n) % n;
             if (index[axis] < 0 || index[axis] >= n) return;
         }
@@ -90,6 +93,7 @@ std::vector<std::pair<int, int>> near_pairs(const CellGrid& grid,
                                             double margin) {
     std::vector<std::pair<int, int>> pairs;
     if (grains.size() < 2) return pairs;
+    // Two binned bodies that interact are at most one bin apart: |x_a - x_b| < 2 R_max + margin.
     const double limit = much_larger * mean_radius(grains);
     Bins bins(grid, 2.0 * largest_radius(grains, limit) + margin);
     std::vector<int> large, all;

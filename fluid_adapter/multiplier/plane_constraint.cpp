@@ -36,6 +36,8 @@ MultiplierResult PlaneConstraint::solve(const VelocityPointers& u) {
 MultiplierSettings PlaneConstraint::continued() const {
     MultiplierSettings settings = settings_;
     settings.tolerance = slip_goal_ / settings.velocity_scale;
+    // The first slip of a later solve may be small: to reduce it by the same factor again would ask
+    // for more with every push.
     settings.reduction = 1.0;
     return settings;
 }
@@ -52,16 +54,19 @@ std::array<double, 21> PlaneConstraint::effective_inertia(std::size_t grain) con
 }
 
 Twist PlaneConstraint::moved_by(std::size_t grain, const Impulse& impulse) const {
+    // Positive definite, as SaddleOperator::assemble has demanded.
     return twist(system_.effective_inertia()[grain].llt().solve(planar(impulse)));
 }
 
 void PlaneConstraint::for_cells(const std::function<void(int)>& visit) const {
     for (const InteriorCell& point : points_.interior) visit(point.cell);
+    // Halo cells are read by import_halo and belong to other ranks.
     for (const StencilCell& at : points_.stencilled)
         if (field_.owns(at.cell)) visit(at.cell);
 }
 
 void PlaneConstraint::clear_covered(double* values) const {
+    // Cells that boundary points interpolate from are fluid, even if their centres are inside.
     for (const InteriorCell& inside : points_.interior) values[inside.cell] = 0.0;
 }
 

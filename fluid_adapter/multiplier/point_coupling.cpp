@@ -30,12 +30,15 @@ void PointCoupling::find_shared(const FluidField& field, const CollocationPoints
         for (int s = points.stencil[points.boundary_begin[g]];
              s < points.stencil[points.boundary_begin[g + 1]]; ++s) {
             int& user = user_[points.slot[s]];
+            // Once `several`, always: g is never negative.
             user = user == nobody || user == g ? g : several;
         }
     shared_.assign(points.slots(), is_private);
+    // On one rank only cells of several grains are shared.
     const bool border = field.has_halo();
     for (int slot = 0; slot < points.slots(); ++slot) {
         const StencilCell& at = points.stencilled[slot];
+        // A cell that another rank knows may be used by points there.
         if (user_[slot] == several || (border && field.shares(at.cell)))
             shared_[slot] = number(field, at);
     }
@@ -50,16 +53,19 @@ int PointCoupling::number(const FluidField& field, const StencilCell& at) {
 }
 
 void PointCoupling::apply(const FluidField& field, const double* w, double* y) {
+    // y = G_private w + B_s m_s^-1 (B_s^T w), the bracket summed over the ranks.
     std::fill(cells_.begin(), cells_.end(), PlaneVector{});
     for (const Link& link : links_) {
         cells_[link.cell].x += link.weight * w[2 * link.point];
         cells_[link.cell].y += link.weight * w[2 * link.point + 1];
     }
+    // Collective: called without shared cells too.
     sums_.sum(field, border_, cells_.data());
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         cells_[c].x *= per_mass_[c];
         cells_[c].y *= per_mass_[c];
     }
+    // Writes y; the shared part is added to it.
     apply_private(w, y);
     for (const Link& link : links_) {
         y[2 * link.point] += link.weight * cells_[link.cell].x;
@@ -81,6 +87,7 @@ void PointCoupling::apply_private(const double* w, double* y) const {
             y[2 * at->point] += at->value * wx;
             y[2 * at->point + 1] += at->value * wy;
         }
+        // Rows have earlier points only, so y of p is set before a later row adds to it.
         y[2 * p] = x;
         y[2 * p + 1] = y_of_p;
     }

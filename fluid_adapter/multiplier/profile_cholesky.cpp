@@ -28,6 +28,7 @@ int ProfileCholesky::begin_matrix() {
 double* ProfileCholesky::add_row(int first) {
     const int row = begin_.back()++ - begin_[begin_.size() - 2];
     first_.push_back(first);
+    // So that values_[place_ + k] is the entry of column k, whatever the first one is.
     place_.push_back(static_cast<std::ptrdiff_t>(values_.size()) - first);
     inverse_.push_back(0.0);
     values_.resize(values_.size() + row - first + 1, 0.0);
@@ -35,6 +36,7 @@ double* ProfileCholesky::add_row(int first) {
 }
 
 bool ProfileCholesky::factorise() {
+    // In place: rows before i, and row i to the left of j, are L's already.
     const int begin = begin_[begin_.size() - 2], rows = begin_.back() - begin;
     for (int i = 0; i < rows; ++i) {
         double* row = values_.data() + place_[begin + i];
@@ -42,12 +44,15 @@ bool ProfileCholesky::factorise() {
         for (int j = first; j < i; ++j) {
             const double* other = values_.data() + place_[begin + j];
             double sum = row[j];
+            // Left of its profile a row is zero, of L as of A.
             for (int k = std::max(first, first_[begin + j]); k < j; ++k) sum -= row[k] * other[k];
             row[j] = sum * inverse_[begin + j];  // L_ij = (A_ij - sum_k L_ik L_jk)/L_jj
         }
         double pivot = row[i];
         for (int k = first; k < i; ++k) pivot -= row[k] * row[k];
+        // L_ii^2 = A_ii - sum_k L_ik^2; written so that NaN is refused too.
         if (!(pivot > least_pivot * row[i])) return false;
+        // Kept, since every solve divides by it twice.
         inverse_[begin + i] = 1.0 / std::sqrt(pivot);
         row[i] = std::sqrt(pivot);
     }

@@ -33,6 +33,7 @@ void SaddleOperator::assemble(FluidField& field, const std::vector<ImmersedGrain
     points_ = &points;
     ids_.clear();
     for (const ImmersedGrain& grain : grains) ids_.push_back(grain.id);
+    // The sums over holders below need this announcement, of every rank.
     field.hold_grains(ids_.data(), static_cast<int>(ids_.size()));
     sum_bodies();
     factorise();
@@ -42,6 +43,7 @@ void SaddleOperator::sum_bodies() {
     sums_.resize(grains_->size());
     for (std::size_t g = 0; g < grains_->size(); ++g)
         sums_[g] = sum_cells(*points_, static_cast<int>(g));
+    // A rank has the cells it owns, and A needs those of the whole grain.
     sum_over_holders(sums_);
     body_.resize(grains_->size());
     for (std::size_t g = 0; g < grains_->size(); ++g)
@@ -49,8 +51,11 @@ void SaddleOperator::sum_bodies() {
 }
 
 void SaddleOperator::factorise() {
+    // Which cells are shared comes first: the blocks leave these out of the coupling's rows.
     coupling_.begin(*field_, *points_);
     blocks_.factorise(*field_, *grains_, *points_, coupling_);
+    // G^-1 is of one rank's points at a time: where points of a grain on two ranks share cells the
+    // sum is an approximation, in the preconditioner and in the effective inertia alike.
     tied_ = blocks_.tied_inertia();
     sum_over_holders(tied_);
     effective_.resize(grains_->size());
@@ -61,6 +66,7 @@ void SaddleOperator::factorise() {
             hold(g);
             continue;
         }
+        // Not by Cholesky: A alone may be indefinite, for a light grain with boundary points.
         inverse_[g] = body_[g].inverse();
         effective_[g] = body_[g] + tied_[g];
         demand_positive(effective_[g], ids_[g]);
@@ -79,6 +85,7 @@ void SaddleOperator::apply(const Multipliers& w, double* y) {
     by_grain_.resize(grains_->size());
     for (std::size_t g = 0; g < by_grain_.size(); ++g)
         by_grain_[g] = -(inverse_[g] * w.on_grains[g]);
+    // y -= T (-A^-1 T^T w)
     BoundaryOperator(*points_).subtract_motion(by_grain_.data(), y);
 }
 
@@ -87,6 +94,7 @@ void SaddleOperator::apply(const Multipliers& w, double* y) {
 ///
 ///     z = G^-1 (r - T q),    T^T z = s - T^T G^-1 T q
 void SaddleOperator::precondition(const double* r, Multipliers& z) {
+    // z = G^-1 r at first, and its sums by grain are s.
     blocks_.solve(r, z.values.data());
     BoundaryOperator(*points_).sum_by_grain(z.values.data(), z.on_grains.data());
     sum_over_holders(z.on_grains);
@@ -100,6 +108,7 @@ void SaddleOperator::precondition(const double* r, Multipliers& z) {
 
 double SaddleOperator::dot(const double* a, const double* b) const {
     using Vector = Eigen::Map<const Eigen::VectorXd>;
+    // A point is of one rank alone, so nothing is counted twice.
     double sum = Vector(a, rows()).dot(Vector(b, rows()));
     field_->sum_over_ranks(&sum, 1);
     return sum;

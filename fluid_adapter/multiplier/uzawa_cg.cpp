@@ -41,20 +41,25 @@ MultiplierResult uzawa_cg(ConstrainedFlow& flow, const MultiplierSettings& setti
     double* r = flow.slip().data();
     double* y = work.image.data();
 
+    // Over all ranks, so that all of them take the same number of iterations: each is collective.
+    // Without any point the slip is zero, and so is the number of iterations.
     const double points = std::max(1.0, system.points_everywhere());
     double rr = system.dot(r, r), rz = 0.0;
+    // rms slip = sqrt(|r|^2 / points), r with both components of every point
     const double goal = target(settings, std::sqrt(rr / points));
 
     MultiplierResult result;
     while (std::sqrt(rr / points) > goal && result.iterations < settings.iterations) {
         system.precondition(r, z);
         const double rz_new = system.dot(r, z.values.data());
+        // beta = r.z / (r.z of the last iteration), alpha = r.z / w.S w
         const double beta = result.iterations == 0 ? 0.0 : rz_new / rz;
         rz = rz_new;
         change(w, beta, z, 1.0);  // w = beta w + z
         system.apply(w, y);
         const double alpha = rz / system.dot(w.values.data(), y);
         change(L, 1.0, w, alpha);  // L += alpha w
+        // r = s - S L by recurrence; it is the flow's own slip, from which a push goes on.
         for (int i = 0; i < rows; ++i) r[i] -= alpha * y[i];
         rr = system.dot(r, r);
         ++result.iterations;

@@ -35,6 +35,7 @@ CellRows::CellRows(const RankGroup& group, int columns, int rows, const std::vec
 }
 
 std::unique_ptr<Pencils> CellRows::pencils() const {
+    // Rows and columns are then one array, and no MPI is called.
     if (!group_.parallel()) return std::make_unique<WholeGrid>(columns_, rows_of_rank_[0].count);
     return std::make_unique<MpiPencils>(group_, columns_, rows_of_rank_);
 }
@@ -52,9 +53,11 @@ void CellRows::choose_rows(int rows, const std::vector<int>& cells) {
         highest = std::max(highest, cell / columns_);
     }
     const Span mine = cells.empty() ? Span{} : Span{lowest, highest - lowest + 1};
+    // As many cells as these rows have: they are whole, unless a cell is there twice.
     const bool whole = static_cast<std::size_t>(mine.count) * columns_ == cells.size();
     const std::vector<int> firsts = group_.everywhere(mine.first);
     const std::vector<int> counts = group_.everywhere(mine.count);
+    // Every rank decides by the same numbers, so all decide alike.
     rows_of_rank_ = even_spans(rows, group_.size());
     if (!group_.all(whole)) return;
     std::vector<Span> slabs(group_.size());
@@ -79,6 +82,7 @@ void CellRows::sort_cells(const std::vector<int>& cells) {
         const int holder = row_holder(row);
         const int place = cells[c] - columns_ * rows_of_rank_[holder].first;
         const bool stays = holder == group_.rank();
+        // The cell here, and in the same order its place in the rows of the rank that has these.
         (stays ? own_cells_ : away[holder]).push_back(static_cast<int>(c));
         (stays ? own_places_ : places[holder]).push_back(place);
     }
@@ -89,11 +93,14 @@ void CellRows::sort_cells(const std::vector<int>& cells) {
         all.insert(all.end(), list.begin(), list.end());
         parts.push_back({rank, begin, static_cast<int>(all.size())});
     };
+    // Each holder learns where the values that will come from a rank belong; later only values are
+    // sent, in this order.
     const ByRank<int> guests = all_to_all(group_, places);
     for (int rank = 0; rank < ranks; ++rank) {
         append(away_, away_cells_, rank, away[rank]);
         if (rank != group_.rank()) append(guests_, guest_places_, rank, guests[rank]);
     }
+    // own_cells_ is 0, 1, 2, ... here: the rank's order is that of the rows.
     straight_ = stays() && own_cells_ == own_places_;
     away_values_.resize(away_cells_.size());
     guest_values_.resize(guest_places_.size());
@@ -102,6 +109,7 @@ void CellRows::sort_cells(const std::vector<int>& cells) {
 void CellRows::check_complete() const {
     const std::size_t size =
         static_cast<std::size_t>(rows_of_rank_[group_.rank()].count) * columns_;
+    // Every place of a rank's rows is filled by exactly one cell, on all ranks.
     std::vector<int> places = own_places_;
     places.insert(places.end(), guest_places_.begin(), guest_places_.end());
     std::sort(places.begin(), places.end());
@@ -115,6 +123,7 @@ void CellRows::check_complete() const {
 void CellRows::begin_exchange(const std::vector<Part>& out, double* out_values,
                               const std::vector<Part>& in, double* in_values) {
     requests_.clear();
+    // Receives first, so that arriving values have a place.
     for (const Part& part : in)
         PMPI_Irecv(in_values + part.begin, part.end - part.begin, MPI_DOUBLE, part.rank, cell_tag,
                    group_.comm(), &requests_.emplace_back());

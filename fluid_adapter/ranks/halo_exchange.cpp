@@ -15,12 +15,14 @@ constexpr int nobody = -1;
 /// that no rank holds the whole grid.
 std::vector<int> owners_of(const RankGroup& group, int cells, const std::vector<int>& own,
                            const std::vector<int>& wanted) {
+    // Rank r keeps the register of the cells r stretch .. (r + 1) stretch - 1.
     const int ranks = group.size(), stretch = (cells + ranks - 1) / ranks;
     ByRank<int> owned(ranks), asked(ranks), answers(ranks);
     for (const int cell : own) owned[cell / stretch].push_back(cell % stretch);
     for (const int cell : wanted) asked[cell / stretch].push_back(cell % stretch);
 
     std::vector<int> keeper(stretch, nobody);
+    // All claims are in before the first question is answered.
     const ByRank<int> claims = all_to_all(group, owned), questions = all_to_all(group, asked);
     for (int rank = 0; rank < ranks; ++rank)
         for (const int cell : claims[rank]) keeper[cell] = rank;
@@ -32,6 +34,7 @@ std::vector<int> owners_of(const RankGroup& group, int cells, const std::vector<
     std::vector<int> owners;
     for (const int cell : wanted) {
         const int rank = cell / stretch;
+        // Answers come in the order of the questions.
         owners.push_back(told[rank][next[rank]++]);
     }
     return owners;
@@ -44,6 +47,7 @@ HaloExchange::HaloExchange(const RankGroup& group, int cells, const std::vector<
     : group_(group), own_(own.size()) {
     const std::vector<int> owners = owners_of(group, cells, own, halo);
     const bool known = std::find(owners.begin(), owners.end(), nobody) == owners.end();
+    // All ranks throw together: one that stopped alone would leave the others waiting.
     if (!group.all(known)) throw std::invalid_argument("a cell of the grid belongs to no rank");
     find_neighbours(own, owners, halo);
 }
@@ -51,6 +55,8 @@ HaloExchange::HaloExchange(const RankGroup& group, int cells, const std::vector<
 void HaloExchange::find_neighbours(const std::vector<int>& own, const std::vector<int>& owners,
                                    const std::vector<int>& wanted) {
     ByRank<int> asked(group_.size());
+    // Both sides of a pair have its cells in ascending order of their numbers, so that messages
+    // hold values alone.
     for (std::size_t k = 0; k < wanted.size(); ++k) asked[owners[k]].push_back(wanted[k]);
     for (std::vector<int>& list : asked) std::sort(list.begin(), list.end());
     const ByRank<int> shared = turbidite::all_to_all(group_, asked);
@@ -62,6 +68,7 @@ void HaloExchange::find_neighbours(const std::vector<int>& own, const std::vecto
         Neighbour neighbour;
         neighbour.rank = rank;
         for (const int cell : shared[rank]) neighbour.shared.push_back(local.at(cell));
+        // The halo is ordered by owner: what comes from one neighbour is contiguous.
         neighbour.first = static_cast<int>(halo_.size());
         neighbour.count = static_cast<int>(asked[rank].size());
         halo_.insert(halo_.end(), asked[rank].begin(), asked[rank].end());
@@ -84,6 +91,7 @@ void HaloExchange::import(std::array<const double*, 2> own, std::array<double*, 
     for (Neighbour& neighbour : neighbours_) {
         neighbour.owned_values.clear();
         for (const double* field : own)
+            // Both fields in one message, one after the other
             for (const int cell : neighbour.shared) neighbour.owned_values.push_back(field[cell]);
     }
     exchange(true);
@@ -108,6 +116,7 @@ void HaloExchange::export_sums(std::array<double*, 2> fields) {
     for (const Neighbour& neighbour : neighbours_) {
         const double* values = neighbour.owned_values.data();
         for (double* field : fields)
+            // In ascending order of ranks, whichever message has come first
             for (const int cell : neighbour.shared) field[cell] += *values++;
     }
 }

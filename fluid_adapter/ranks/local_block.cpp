@@ -16,8 +16,10 @@ LocalBlock::LocalBlock(const CellGrid& grid, const std::vector<int>& own, int la
     index_.assign(static_cast<std::size_t>(width_[0]) * width_[1], unknown);
     const int columns = grid_.counts[0];
     for (int c = 0; c < own_count_; ++c) slot(own[c] % columns, own[c] / columns) = c;
+    // A cell among eight own ones can be left out: one of them is nearer to all that it would mark.
     for (const int cell : own)
         if (!is_inside(cell)) mark_around(cell, layers);
+    // Ascending, whatever the order of the own cells is.
     std::sort(halo_.begin(), halo_.end());
     count_rows();
 }
@@ -26,6 +28,7 @@ LocalBlock::LocalBlock(const CellGrid& grid, const std::vector<int>& own, int la
 void LocalBlock::count_rows() {
     const auto zero = std::find(index_.begin(), index_.end(), 0);
     const std::ptrdiff_t before = zero - index_.begin();
+    // The table is left out only for rows of the block that own cells fill from end to end.
     if (zero == index_.end() || before % width_[0] != 0) return;
     int counted = 0;
     while (before + counted < static_cast<std::ptrdiff_t>(index_.size()) &&
@@ -45,9 +48,12 @@ void LocalBlock::enclose(const std::vector<int>& own, int layers) {
             lowest = std::min(lowest, i);
             highest = std::max(highest, i);
         }
+        // A block that goes round a cyclic side continues with cell 0: CellTable adds `turn` to
+        // offsets below zero.
         turn_[axis] = grid_.cyclic(axis) ? n : 0;
         int lower = lowest - layers, upper = highest + layers;
         if (!grid_.cyclic(axis)) lower = std::max(lower, 0), upper = std::min(upper, n - 1);
+        // Once round at most: no cell has two places.
         if (own.empty() || upper - lower + 1 >= n) lower = 0, upper = n - 1;
         first_[axis] = grid_.wrapped(axis, lower);
         width_[axis] = own.empty() ? 0 : upper - lower + 1;
@@ -72,6 +78,7 @@ void LocalBlock::mark_around(int cell, int layers) {
             const int column = grid_.wrapped(0, i + di), row = grid_.wrapped(1, j + dj);
             if (column < 0 || row < 0) continue;
             int& index = slot(column, row);
+            // Own cells, and those marked before
             if (index != unknown) continue;
             index = in_halo;
             halo_.push_back(column + grid_.counts[0] * row);

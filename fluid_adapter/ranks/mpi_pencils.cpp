@@ -29,6 +29,7 @@ MpiPencils::MpiPencils(const RankGroup& group, int columns, const std::vector<Sp
     : group_(group),
       columns_(columns),
       rows_of_rank_(rows_of_rank),
+      // Evenly, whatever rows the ranks have
       modes_of_rank_(even_spans(columns, group.size())),
       row_values_(aligned_values(static_cast<std::size_t>(columns) * own_rows().count)),
       starts_(group.size()) {
@@ -40,6 +41,7 @@ MpiPencils::MpiPencils(const RankGroup& group, int columns, const std::vector<Sp
     std::size_t size = 0;
     for (int rank = 0; rank < group_.size(); ++rank) {
         starts_[rank] = size;
+        // The own part is copied straight to its place.
         if (rank != group_.rank()) size += packed_size(rank);
     }
     packed_.resize(size);
@@ -54,6 +56,7 @@ int MpiPencils::packed_size(int rank) const {
 }
 
 double* MpiPencils::block_of_rows(int rank) {
+    // Columns are stored by y, mode_count() values each: rows of consecutive y are one block.
     return columns() + static_cast<std::size_t>(rows_of_rank_[rank].first) * mode_count();
 }
 
@@ -83,6 +86,7 @@ double* MpiPencils::place_of_rows(int rank) {
 void MpiPencils::to_columns() {
     if (!shared_) return send_to_columns();
     shared_->fence();  // no rank reads columns any more
+    // Every rank writes its rows into the columns of all.
     for_shared_blocks(pack);
     shared_->fence();
 }
@@ -90,6 +94,7 @@ void MpiPencils::to_columns() {
 void MpiPencils::to_rows() {
     if (!shared_) return send_to_rows();
     shared_->fence();
+    // Only reads columns; the first fence of the next to_columns keeps them until all have done so.
     for_shared_blocks(unpack);
 }
 
@@ -97,6 +102,7 @@ void MpiPencils::send_to_columns() {
     requests_.clear();
     for (int rank = 0; rank < group_.size(); ++rank)
         if (rank != group_.rank())
+            // Straight to its place, where rows of consecutive y follow each other
             PMPI_Irecv(block_of_rows(rank), rows_of_rank_[rank].count * mode_count(), MPI_DOUBLE,
                        rank, to_columns_tag, group_.comm(), &requests_.emplace_back());
     for (int step = 1; step < group_.size(); ++step) {
@@ -118,9 +124,11 @@ void MpiPencils::send_to_rows() {
                        to_rows_tag, group_.comm(), &requests_.emplace_back());
     for (int step = 1; step < group_.size(); ++step) {
         const int rank = (group_.rank() + step) % group_.size();
+        // A block of columns is contiguous: sent as it is, unpacked into rows by the receiver.
         PMPI_Isend(block_of_rows(rank), rows_of_rank_[rank].count * mode_count(), MPI_DOUBLE, rank,
                    to_rows_tag, group_.comm(), &requests_.emplace_back());
     }
+    // While messages are on their way
     for_rows_of_block(group_.rank(), block_of_rows(group_.rank()), unpack);
     PMPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     for (int rank = 0; rank < group_.size(); ++rank)

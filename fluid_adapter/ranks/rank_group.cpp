@@ -21,6 +21,7 @@ std::vector<int> starts_of(const std::vector<int>& counts) {
 template <class Number>
 ByRank<Number> exchange_lists(const RankGroup& group, const ByRank<Number>& lists,
                               MPI_Datatype type) {
+    // A single rank gets what it sends to itself, without MPI.
     if (!group.parallel()) return lists;
     const int ranks = group.size();
     std::vector<int> sent(ranks), received(ranks);
@@ -29,6 +30,7 @@ ByRank<Number> exchange_lists(const RankGroup& group, const ByRank<Number>& list
         sent[r] = static_cast<int>(lists[r].size());
         out.insert(out.end(), lists[r].begin(), lists[r].end());
     }
+    // Lengths first, to make room for the lists.
     PMPI_Alltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, group.comm());
     const std::vector<int> out_starts = starts_of(sent), in_starts = starts_of(received);
     std::vector<Number> in(in_starts.back() + received.back());
@@ -47,6 +49,7 @@ RankGroup::RankGroup(MPI_Comm comm) : comm_(new MPI_Comm(MPI_COMM_NULL), release
     PMPI_Comm_rank(*comm_, &rank_);
     PMPI_Comm_size(*comm_, &size_);
     MPI_Comm node = MPI_COMM_NULL;
+    // The ranks on this rank's node; all have to be there, on every rank.
     PMPI_Comm_split_type(*comm_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
     int on_node = 0;
     PMPI_Comm_size(node, &on_node);

@@ -20,6 +20,7 @@ RankRows::RankRows(const RankGroup& group, const SeparableOperator& plane, const
       rows_(plane.y.cells),
       periodic_(plane.y.periodic()),
       spans_(cells.rows_of_rank()) {
+    // All ranks know all spans, so all refuse.
     for (const Span& span : spans_)
         if (span.count < beyond)
             throw std::invalid_argument(std::to_string(rows_) + " rows of cells are too few for " +
@@ -29,6 +30,7 @@ RankRows::RankRows(const RankGroup& group, const SeparableOperator& plane, const
 }
 
 int RankRows::holder(int row) const {
+    // Called with -1 and rows_ as well, just beyond the ends.
     if (periodic_) row = (row + rows_) % rows_;
     for (int rank = 0; rank < group_.size(); ++rank)
         if (row >= spans_[rank].first && row < spans_[rank].first + spans_[rank].count) return rank;
@@ -40,6 +42,8 @@ std::unique_ptr<Pencils> RankRows::pencils() const {
 }
 
 void RankRows::exchange(const double* edges, double* outside) {
+    // edges: first two rows, last two; outside: two below, two above. Tags name the direction of
+    // travel: on a ring of two ranks both neighbours are the same one.
     const int two_rows = beyond * columns_;
     MPI_Request requests[4];
     int count = 0;

@@ -11,6 +11,7 @@ namespace {
 constexpr int rows_tag = 6;
 
 int keeper_of(GrainId id, int ranks) {
+    // Plates have negative ids; as unsigned numbers they have a keeper too.
     return static_cast<int>(static_cast<std::uint64_t>(id) % ranks);
 }
 
@@ -19,6 +20,7 @@ ByRank<long long> introductions(const ByRank<long long>& held) {
     std::vector<std::pair<long long, int>> holders;
     for (std::size_t rank = 0; rank < held.size(); ++rank)
         for (const long long id : held[rank]) holders.emplace_back(id, static_cast<int>(rank));
+    // By id, then by rank: holders of one grain follow each other.
     std::sort(holders.begin(), holders.end());
     ByRank<long long> letters(held.size());
     for (auto first = holders.begin(); first != holders.end();) {
@@ -44,12 +46,14 @@ void SharedGrains::hold(const GrainId* ids, int count) {
         held[keeper_of(ids[g], group_.size())].push_back(ids[g]);
         local[ids[g]] = g;
     }
+    // Ids to their keepers, and to each holder the others: the only calls among all ranks.
     const ByRank<long long> letters = all_to_all(group_, introductions(all_to_all(group_, held)));
 
     std::vector<std::pair<int, GrainId>> meetings;
     for (const std::vector<long long>& letter : letters)
         for (std::size_t k = 0; k < letter.size(); k += 2)
             meetings.emplace_back(static_cast<int>(letter[k + 1]), letter[k]);
+    // By rank, then by id: both partners have the same order, so that messages need no ids.
     std::sort(meetings.begin(), meetings.end());
     partners_.clear();
     shared_.clear();
@@ -70,6 +74,8 @@ void SharedGrains::sum(double* rows, int per_grain) {
     own_.clear();
     for (const int g : shared_)
         for (int n = 0; n < per_grain; ++n)
+            // Sums begin at zero and take the own values in the place of this rank: a sum depends
+            // on its order, and all holders are to have the same bits.
             own_.push_back(std::exchange(rows[g * per_grain + n], 0.0));
     PMPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     bool own_added = false;
@@ -93,6 +99,7 @@ void SharedGrains::begin(const double* rows, int per_grain) {
                    partner.rank, rows_tag, group_.comm(), &requests_.emplace_back());
     }
     for (Partner& partner : partners_) {
+        // A copy: `sum` zeroes the rows while messages are on their way.
         partner.sent.clear();
         for (const int g : partner.grains)
             partner.sent.insert(partner.sent.end(), rows + g * per_grain,

@@ -23,12 +23,14 @@ SharedValues::SharedValues(const RankGroup& group, std::size_t count)
     PMPI_Info_free(&apart);
     if (made != MPI_SUCCESS)
         throw std::runtime_error("MPI could not allocate shared memory for the ranks");
+    // One epoch from here until the window is freed; within it `fence` synchronises.
     PMPI_Win_lock_all(MPI_MODE_NOCHECK, window_);
     for (int rank = 0; rank < group_.size(); ++rank) {
         MPI_Aint size = 0;
         int unit = 0;
         PMPI_Win_shared_query(window_, rank, &size, &unit, &values_[rank]);
     }
+    // Each rank its own; the fence shows them to the others.
     std::fill_n(own, count, 0.0);
     fence();
 }
@@ -42,6 +44,7 @@ SharedValues::~SharedValues() {
 }
 
 void SharedValues::fence() const {
+    // Own writes out, all ranks here, writes of others in.
     PMPI_Win_sync(window_);
     PMPI_Barrier(group_.comm());
     PMPI_Win_sync(window_);

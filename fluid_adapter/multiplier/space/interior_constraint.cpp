@@ -66,6 +66,7 @@ class CellSums {
     template <class Value>
     void add(const CellRun& run, Value value) {
         Vector of_run = Vector::Zero(), along = Vector::Zero();
+        // sum r x v = first x sum v + h e_x x sum c v: no cross product per cell
         for (int c = 0; c < run.count; ++c) {
             const Vector v = value(c);
             of_run += v;
@@ -91,6 +92,7 @@ class CellSums {
 Eigen::Matrix<double, 6, 6> body_inertia(const ImmersedGrain& grain,
                                          const Eigen::Matrix<double, Moments::count, 1>& sums,
                                          double m) {
+    // sum m [r]x; it is not zero, since cells are not symmetric about the centre.
     const Eigen::Matrix3d coupling = m * cross_matrix(sums.segment<3>(1));
     Eigen::Matrix3d second;
     second << sums[4], sums[5], sums[6], sums[5], sums[7], sums[8], sums[6], sums[8], sums[9];
@@ -139,6 +141,7 @@ void InteriorConstraint::sum_bodies() {
         for (const CellRun& run : cells_.runs(g)) add_run(moments, run, field_.grid().spacing[0]);
         sums.push_back(moments.numbers());
     }
+    // Each rank has the cells of its layers.
     sum_over_holders(sums);
     bodies_.resize(grains.size());
     linear_.assign(grains.size(), 0.0);
@@ -148,6 +151,7 @@ void InteriorConstraint::sum_bodies() {
         const SixBySix inertia = body_inertia(grains[g], sums[g], field_.reference_mass());
         bodies_[g].compute(inertia);
         if (bodies_[g].info() != Eigen::Success) refuse(grains[g], inertia);
+        // For `joint`: cM + sum m, and the mean of the angular diagonal, tr(A_rr)/3
         linear_[g] = inertia(0, 0);
         angular_[g] = inertia.diagonal().tail<3>().mean();
     }
@@ -162,6 +166,7 @@ InteriorConstraint::Six InteriorConstraint::moved(std::size_t grain, const Six& 
 /// sum m (u ; r x u) of every grain, over all ranks.
 std::vector<InteriorConstraint::Six> InteriorConstraint::sum_velocity(
     const VelocityPointers& u) const {
+    // Columns are equal along x, so that cells of a run are h apart and have one volume.
     const double h = field_.grid().spacing[0], m = field_.reference_mass();
     std::vector<Six> sums(grains_->size());
     for (std::size_t g = 0; g < sums.size(); ++g) {
@@ -183,6 +188,7 @@ std::vector<InteriorConstraint::Six> InteriorConstraint::carry(
     const double h = field_.grid().spacing[0], m = field_.reference_mass();
     std::vector<Six> lost(grains_->size());
     for (std::size_t g = 0; g < lost.size(); ++g) {
+        // u_c = U + omega x r, by one step from cell to cell of a run
         const Vector spin = motions[g].tail<3>();
         const Vector step = h * spin.cross(Vector::UnitX());  // of U + omega x r along a run
         CellSums off(h);
@@ -204,6 +210,7 @@ std::vector<InteriorConstraint::Six> InteriorConstraint::carry(
 MultiplierResult InteriorConstraint::solve(const VelocityPointers& u) {
     velocity_ = u;
     impulses_.assign(grains_->size(), Six::Zero());
+    // U = A^-1 (P + sum m (u ; r x u))
     motions_ = sum_velocity(u);
     for (std::size_t g = 0; g < motions_.size(); ++g) {
         const ImmersedGrain& grain = (*grains_)[g];
@@ -217,11 +224,13 @@ MultiplierResult InteriorConstraint::solve(const VelocityPointers& u) {
 
 MultiplierResult InteriorConstraint::push(const std::vector<Impulse>& impulses) {
     for (std::size_t g = 0; g < motions_.size(); ++g)
+        // Exact, since W is linear and its cells do not change within a window.
         motions_[g] += moved(g, six(impulses[g].linear, impulses[g].moment));
     return {};
 }
 
 void InteriorConstraint::impose() {
+    // sum m (u - U - omega x r): zero for what has been imposed before, so this may be repeated.
     const std::vector<Six> lost = carry(velocity_, motions_);
     for (std::size_t g = 0; g < lost.size(); ++g) impulses_[g] += lost[g];
 }
@@ -259,6 +268,7 @@ void InteriorConstraint::clear_covered(double* values) const {
 /// What it does to grains: motions, then impulses.
 MultiplierResult InteriorConstraint::make_rigid(const VelocityPointers& change, double,
                                                 GrainChange& of_grains) {
+    // A change brings no momentum of the grains' own: P = 0, and prescribed ones do not move.
     std::vector<Six> motions = sum_velocity(change);
     for (std::size_t g = 0; g < motions.size(); ++g) motions[g] = moved(g, motions[g]);
     const std::vector<Six> lost = carry(change, motions);

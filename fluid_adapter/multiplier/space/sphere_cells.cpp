@@ -18,6 +18,7 @@ constexpr int x = 0, y = 1, z = 2;
 void SphereCells::find(const std::vector<ImmersedGrain>& grains) {
     grains_ = &grains;
     shut_in_ = 0;
+    // One layer more at either end: cells there are neighbours of own ones (join_if_shut_in).
     covered_.assign(
         grid().counts[x] * static_cast<std::size_t>(grid().counts[z]) * (cells_.count + 2), 0);
     runs_.resize(grains.size());
@@ -32,8 +33,10 @@ void SphereCells::find_runs(int g) {
     const double radius = (*grains_)[g].radius;
     for (int j = grid().layer(y, at.y() - radius); j <= grid().layer(y, at.y() + radius); ++j) {
         const int layer = grid().wrapped(y, j);
+        // Also of the layers beside this rank's, for the mask; add_run keeps only own cells.
         if (layer < 0 || mask_cell(0, layer, 0) >= covered_.size()) continue;
         const double dy = grid().centre(y, j) - at.y();
+        // Half the width in z of the sphere's cut by this layer of centres
         const double across = std::sqrt(std::max(0.0, radius * radius - dy * dy));
         const int front = grid().layer(z, at.z() + across);
         for (int k = grid().layer(z, at.z() - across); k <= front; ++k)
@@ -74,6 +77,7 @@ bool SphereCells::belongs(int grain, int i, int j, int k) const {
     for (const int other : neighbours_[grain]) {
         const double theirs = power(other, i, j, k);
         if (theirs < own) return false;
+        // Otherwise a cell on the plane between them would have two owners.
         if (theirs == own && (*grains_)[other].id < (*grains_)[grain].id) return false;
     }
     return true;
@@ -84,6 +88,8 @@ void SphereCells::find_row(const Row& row) {
     const ImmersedGrain& grain = (*grains_)[row.grain];
     const double square = grain.radius * grain.radius - row.dy * row.dy - row.dz * row.dz;
     if (square <= 0.0) return;
+    // Half a chord, rounded outwards to whole cells; `belongs` decides at both ends. Between them
+    // nothing needs to be asked: the sphere, cut by planes, is convex.
     const double half = std::sqrt(square), at = grain.position[x];
     int low = grid().layer(x, at - half), high = grid().layer(x, at + half);
     if (!grid().cyclic(x)) low = std::max(low, 0), high = std::min(high, grid().counts[x] - 1);
@@ -98,6 +104,7 @@ void SphereCells::add_run(const Row& row, int low, int high) {
     const int nx = grid().counts[x];
     while (low <= high) {
         const int i = grid().wrapped(x, low);
+        // Up to the side of the grid
         const int count = std::min(high - low + 1, nx - i);
         for (int c = 0; c < count; ++c) mark(i + c, row.j, row.k);
         if (cells_.owns(row.j))
@@ -113,6 +120,7 @@ void SphereCells::add_run(const Row& row, int low, int high) {
 /// Index in `covered_` of a cell of the grid; its size for a cell that is not looked at.
 std::size_t SphereCells::mask_cell(int i, int j, int k) const {
     const int ny = grid().counts[y];
+    // 0 is the layer below the rank's, count + 1 that above, of a cyclic axis round the grid.
     int layer = j - cells_.first + 1;
     if (layer < 0) layer += ny;
     if (layer > cells_.count + 1) layer -= ny;
@@ -142,6 +150,7 @@ void SphereCells::join_shut_in() {
     for (std::size_t g = 0; g < runs_.size(); ++g)
         for (const CellRun& run : runs_[g]) {
             const Place at = place_of(run.cell);
+            // Found once, by the covered neighbour at -x: no two runs end at the same cell.
             join_if_shut_in(static_cast<int>(g), {at.i + run.count, at.j, at.k}, joined);
             if (at.i == 1 && !grid().cyclic(x))
                 join_if_shut_in(static_cast<int>(g), {0, at.j, at.k}, joined);
