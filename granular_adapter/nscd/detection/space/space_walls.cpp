@@ -87,6 +87,7 @@ void sphere_rectangle(const WallView& view, std::vector<ContactPoint>& points) {
     const Wall& wall = view.wall;
     const Vec3 arm = view.bodies.position[view.body] - wall.point;
     const Vec3 across = cross(wall.normal, wall.side);
+    // The nearest place of a rectangle is the centre with x and y clamped to it.
     const double x = dot(wall.side, arm), y = dot(across, arm), height = dot(wall.normal, arm);
     const double beyond_x = x - std::clamp(x, -wall.half_length, wall.half_length);
     const double beyond_y = y - std::clamp(y, -wall.half_width, wall.half_width);
