@@ -15,6 +15,7 @@ constexpr std::size_t parities = 9;  // with the class of large bodies
 CellOrder::CellOrder(const CellScene& scene)
     : CellOrder(scene, ParityGrid(cell_sizes(scene.bodies, scene.box), scene.box, scene.reach,
                                   scene.share)) {
+    // One rank: a single phase, in the order of the places of the cells.
     by_parity_ = false;
     phases_.resize(1);
 }
@@ -46,6 +47,7 @@ void CellOrder::add(const ContactPoint& point) {
     const auto id = [this](std::int32_t body) {
         return scene_.bodies.id[static_cast<std::size_t>(body)];
     };
+    // Keys of walls may equal ids of bodies: `wall` tells them apart.
     const GrainId first =
         point.wall < 0 ? id(point.a) : scene_.walls[static_cast<std::size_t>(point.wall)].key;
     const Cell own = cell(point);
@@ -56,6 +58,7 @@ void CellOrder::add(const ContactPoint& point) {
 
 void CellOrder::take_phase(std::vector<Place>& places, std::vector<std::int32_t>& order) {
     std::sort(places.begin(), places.end(), [](const Place& p, const Place& q) {
+        // Ids before places in storage: no two points are equal, so the sort has one result.
         return std::tie(p.cell, p.layer, p.wall, p.first, p.second, p.feature) <
                std::tie(q.cell, q.layer, q.wall, q.first, q.second, q.feature);
     });

@@ -22,6 +22,8 @@ double half_extent(const Wall& wall, std::size_t axis) {
 Extent round_extent(const Wall& wall) {
     Extent all;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+        // A circle of radius R about the axis n reaches R sqrt(1 - n_i^2) from its centre along
+        // axis i. The surface is the convex combination of its two rims, so these give its extent.
         const double n = wall.normal[axis], across = std::sqrt(std::max(0.0, 1.0 - n * n));
         const auto& [p, q] = wall.meridian;
         const double most = wall.half_thickness, x = wall.point[axis];
@@ -81,6 +83,7 @@ Vec3 velocity_at(const Wall& wall, const Vec3& place) {
 }
 
 void move(Wall& wall, double step) {
+    // The arm from the pivot turns by dt spin, and the pivot moves by dt velocity.
     const Vec3 arm = wall.point - wall.pivot;
     const Shift shift = step * wall.twist;
     wall.pivot = wall.pivot + shift.displacement;
@@ -91,6 +94,7 @@ void move(Wall& wall, double step) {
     const Rotation turn = rotation(shift.angle);
     wall.point = wall.pivot + turn(arm);
     wall.normal = turn(wall.normal);
+    // Keeps the rounding of many steps from changing its length.
     wall.normal = (1.0 / norm(wall.normal)) * wall.normal;
     if (wall.form == WallForm::rectangle) wall.side = turn(wall.side);
 }
