@@ -15,6 +15,7 @@ namespace {
 struct Parts {
     explicit Parts(std::vector<int> sizes) : count(std::move(sizes)), first(count.size(), 0) {
         const auto all = std::accumulate(count.begin(), count.end(), std::size_t{0});
+        // Counts and offsets of MPI are of type int.
         if (all > std::numeric_limits<int>::max())
             throw std::length_error(
                 "the grains ranks exchange more than 2 GB at once: use more grains.ranks");
@@ -58,6 +59,7 @@ bool MpiExchange::on_one_node() const {
     PMPI_Comm_size(node, &together);
     PMPI_Comm_free(&node);
     int least = together;
+    // All ranks must choose the same way, so they agree on the smallest number.
     PMPI_Allreduce(&together, &least, 1, MPI_INT, MPI_MIN, communicator_);
     return least == size_;
 }
