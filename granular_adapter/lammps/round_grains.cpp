@@ -28,6 +28,7 @@ std::string RoundGrains::declaration(int dimension) {
 RoundGrains::Newcomer RoundGrains::newcomer(const nscd::Bodies& bodies, std::size_t i,
                                             const MassClasses& classes) const {
     const double mass = bodies.mass[i], radius = bodies.radius[i];
+    // c m R^2/I: LAMMPS turns spheres with c = 2/5 and discs with c = 1/2.
     const double share = in_space() ? 0.4 : 0.5;  // of m R^2
     return {bodies.id[i],
             classes.type_of(mass),
@@ -86,6 +87,7 @@ void RoundGrains::take(const std::vector<Newcomer>& newcomers, int giver, int fi
         freedom().each_turn([&](int axis) { omega[axis] = disc.spin[axis]; });
         own[turn_factor] = disc.turn_factor;
         set_orientation(own, disc.orientation);
+        // A double holds 32 bits exactly, but not 64.
         own[id_high] = double(disc.id >> 32);
         own[id_low] = double(disc.id & 0xFFFFFFFF);
         lammps_.atoms<int*>("i_from_rank")[i] = giver;

@@ -40,6 +40,8 @@ struct Plane {
     const char* name;
     std::size_t low, high;  ///< among the borders
 };
+// Borders are in the order left, right, bottom, top, front, back; in the plane the last two are
+// missing.
 constexpr Plane planes[] = {{"xplane", 0, 1}, {"yplane", 2, 3}, {"zplane", 4, 5}};
 
 bool has_wall(const Plane& plane, const std::vector<Border>& borders) {
@@ -63,6 +65,7 @@ void declare_walls(Library& lammps, const SoftLaw& law, const std::vector<double
         for (int axis = 0; axis < 3; ++axis) {
             const Plane& plane = planes[axis];
             if (!has_wall(plane, borders)) continue;
+            // One fix per class of masses: at a wall the spring is that of the grain's own mass.
             lammps.command(fmt::format("fix {} class{} wall/gran granular {} {} {} {} contacts",
                                        fix_name(plane, type), type, contact(law, masses[type - 1]),
                                        plane.name, place(borders[plane.low], axis),

@@ -106,7 +106,10 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
 Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {
     const StopWatch watch;
     begin_round();
+    // What can fail on one rank is agreed on before the next call that all ranks make together:
+    // otherwise the others would wait in it for ever.
     agree([&] { check_inside(bodies(), borders_, in_window(window) + " before contacts"); });
+    // After begin_round(), which keeps the velocities at t^n or restores them.
     set_velocities(engine().walls(), moved_walls_, window.time, window.step);
     set_velocities(bodies(), moved_grains_, window.time, window.step);
     const nscd::StepReport step = solve_contacts(window, responses);
@@ -129,6 +132,7 @@ void NscdAdapter::begin_round() {
 nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
                                              const std::vector<FreeResponse>& responses) {
     FreeMotion free;
+    // A rank without grains gets no responses, but takes part in the same kind of step.
     answered_ = on_any_rank(!responses.empty());
     agree([&] {
         if (!answered_ && light_) refuse_light_grain(*light_);
@@ -137,6 +141,7 @@ nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
                 free_motion(bodies(), responses, in_window(window), engine().settings().dimension);
     });
     if (broken_) return {};
+    // Without responses: free motion under the submerged weight, with the inertia cM of step 4.
     if (!answered_) return engine().step(window.step);
     return engine().step_from(free.velocities, std::move(free.mobilities), window.step);
 }
@@ -153,9 +158,15 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     });
     if (broken_) return motion();
     std::optional<std::vector<ContactRecord>> contacts;
+    // Before the move: records need the positions at which contacts were found.
     if (window.write_output) contacts = contact_records(engine());
+    // With the velocities that the fluid has corrected, against the conditions of this window's
+    // contacts.
     report_.contact_violation = engine().contact_violation();
     if (engine().settings().law.film != "none") report_.film_work = engine().film_work();
+    // q^{n+1} = q^n + dt U^{n+4/5} or, where a fluid without responses has corrected the velocities
+    // and the case says so, q^n + dt U^{n+1}. Gaps were closed for U^{n+4/5}: after responses it is
+    // always taken.
     const bool with_contact = answered_ || positions_ == Positions::contact;
     engine().move(window.step, with_contact ? contact_twists_ : bodies().twist);
     if (!moved_walls_.empty()) follow_walls(borders_, engine().walls());
@@ -186,6 +197,7 @@ void NscdAdapter::restore(const SavedState& state) {
 }
 
 void NscdAdapter::restore_from(const std::vector<SavedState>& of_ranks) {
+    // Every rank reads all of them and keeps its even share.
     engine().restore_from(of_ranks);
     const int ranks = ranks_ ? ranks_->size() : 1, own = ranks_ ? ranks_->rank() : 0;
     std::vector<std::uint8_t> mine;
@@ -213,6 +225,7 @@ void NscdAdapter::agree(Check check) {
         failure = std::current_exception();
     }
     broken_ = on_any_rank(failure != nullptr);
+    // The failing rank ends with its own error; the others only know that one of them has failed.
     if (failure) std::rethrow_exception(failure);
 }
 
@@ -246,6 +259,7 @@ void NscdAdapter::remove_leavers() {
     for (std::size_t i = 0; i < all.size(); ++i)
         if (!stays[i]) removed_.push_back(all.id[i]);
     removed_anywhere_ = ranks_ ? nscd::gathered(*ranks_, removed_) : removed_;
+    // On all ranks if on one: keep() also forgets the points of the step, which ranks share.
     if (!removed_anywhere_.empty()) engine().keep(stays);
 }
 

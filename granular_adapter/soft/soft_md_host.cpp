@@ -66,6 +66,7 @@ SubstepReport SoftMdHost::run(const Substeps& substeps, const std::vector<Load>&
     report.impulses.assign(bodies_.size(), Vec3{});
     report.angular_impulses.assign(bodies_.size(), Vec3{});
     for (std::int64_t k = 1; k <= substeps.count; ++k) {
+        // Forces, reports and impulses belong to the positions at the start of the sub-step.
         find_forces(loads, substeps.step);
         watch(report);
         add_impulses(report, substeps.step);
@@ -79,6 +80,7 @@ SubstepReport SoftMdHost::run(const Substeps& substeps, const std::vector<Load>&
 void SoftMdHost::find_forces(const std::vector<Load>& loads, double step) {
     finder_->find(bodies_);
     const std::vector<Overlap>& overlaps = finder_->overlaps();
+    // Springs of points that are no longer there are forgotten, new ones begin unstretched.
     slips_.follow(overlaps);
     totals_ = loads;
     forces_.clear();
@@ -98,6 +100,7 @@ void SoftMdHost::move(double step) {
             twist.velocity + step * (bodies_.inverse_mass(i) * totals_[i].force + fall);
         twist.spin = twist.spin + step * (bodies_.inverse_inertia(i) * totals_[i].torque);
     }
+    // Leap-frog: x <- x + delta v with the new velocity.
     nscd::move(bodies_, bodies_.twist, step, box_);
 }
 

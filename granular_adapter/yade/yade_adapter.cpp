@@ -65,6 +65,7 @@ void demand_all_sides(std::size_t created, const std::vector<nscd::Wall>& walls)
 /// Motion of a plate whose reference position is along x.
 BodyMotion plate_motion(const nscd::Wall& wall) {
     return {wall.point,
+            // n = (-sin a, cos a) for a plate that is turned by a from the x axis.
             about_z(std::atan2(-wall.normal[0], wall.normal[1])),
             {velocity_at(wall, wall.point), wall.twist.spin}};
 }
@@ -141,6 +142,7 @@ void YadeAdapter::erase_leavers(const std::vector<GrainId>& before) {
     std::vector<std::uint8_t> mask;
     for (const GrainId id : before)
         mask.push_back(std::find(gone.begin(), gone.end(), id) == gone.end());
+    // Before the scene erases them: states of erased bodies must not be written any more.
     exchange_.keep(mask);
     python::list ids;
     for (const GrainId id : gone) ids.append(id);

@@ -118,8 +118,8 @@ SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>&
     return report;
 }
 
-/// YADE's contacts: (body, grain or wall; body, grain; sliding; overlap, point, normal, force on
-/// the second body).
+/// Entries of scene.touching() (md_scene.py): side of the domain or -1, a, b, sliding, overlap,
+/// then three numbers each: point, normal, force on b, branch.
 std::vector<ContactRecord> YadeMdHost::touching(double window) const {
     const python::object list = scene_.attr("touching")();
     std::vector<ContactRecord> records;

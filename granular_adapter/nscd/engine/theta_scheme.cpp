@@ -42,7 +42,7 @@ void move(Bodies& bodies, const std::vector<Twist>& velocities, double step,
 }
 
 Vec3 end_configuration(const Vec3& q, const Vec3& velocity, double step, double theta) {
-    return q - step * (1.0 - theta) * velocity;  // Eq. 18 for x
+    return q - step * (1.0 - theta) * velocity;  // x of Eq. 17
 }
 
 }  // namespace turbidite::nscd
