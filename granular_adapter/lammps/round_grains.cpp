@@ -90,6 +90,8 @@ void RoundGrains::take(const std::vector<Newcomer>& newcomers, int giver, int fi
         // A double holds 32 bits exactly, but not 64.
         own[id_high] = double(disc.id >> 32);
         own[id_low] = double(disc.id & 0xFFFFFFFF);
+        // What is kept about the grain is still with the rank that had it: follow_grains() fetches
+        // it.
         lammps_.atoms<int*>("i_from_rank")[i] = giver;
         lammps_.atoms<int*>("i_from_place")[i] = int(k);
     }
@@ -165,6 +167,7 @@ void RoundGrains::number(const std::vector<Origin>& order, int rank) {
     };
     std::sort(by_origin.begin(), by_origin.end(), before);
     for (int i = 0; i < lammps_.local_count(); ++i) {
+        // The place in the new order of the grain that came from there.
         const std::pair<Origin, int> wanted{{from_rank[i], from_place[i]}, 0};
         const auto found = std::lower_bound(by_origin.begin(), by_origin.end(), wanted, before);
         from_rank[i] = rank;

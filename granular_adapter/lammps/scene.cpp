@@ -20,6 +20,7 @@ void run_all(Library& lammps, std::initializer_list<std::string> lines) {
 /// k = m w^2; LAMMPS multiplies the dashpot's coefficient, 2 zeta w, by the reduced mass.
 std::string contact(const SoftLaw& law, double reduced_mass) {
     const double stiffness = reduced_mass * law.frequency * law.frequency;
+    // hooke k c, tangential a k, a c, mu: the same ratio a for spring and dashpot.
     return fmt::format(
         "hooke {:.17g} {:.17g} tangential linear_history {:.17g} {:.17g} {:.17g} damping "
         "mass_velocity limit_damping",

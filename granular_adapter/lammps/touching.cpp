@@ -71,6 +71,7 @@ void for_walls(const Library& lammps, const std::vector<std::string>& fixes, Vis
 void fill(ContactRecord& record, const Vec3& force, double overlap, double friction,
           double window) {
     const double normal = dot(force, record.normal);
+    // N = n . F,   |T| = |F - N n|, at the limit if |T| >= mu N
     const double along = norm(force - normal * record.normal);
     record.status = along >= (1.0 - 1e-9) * friction * normal ? ContactStatus::sliding : 0;
     record.gap = -overlap;

@@ -269,6 +269,7 @@ void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks)
             bodies_.orientation[i] =
                 rotated(bodies_.orientation[i], lag * (now.spin - with_contact[i].spin));
         }
+        // The multiplier impulse of this window is J_h of the next.
         if (hold_)
             held_[i] = {ordered[i]->multiplier_impulse, ordered[i]->multiplier_angular_impulse};
     }
@@ -276,6 +277,7 @@ void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks)
 }
 
 void MdAdapter::remove_leavers() {
+    // Judged at the positions of the protocol, as the contact engine does.
     const std::vector<std::uint8_t> stays = those_inside(at_protocol_positions(), borders_);
     report_.removed = std::count(stays.begin(), stays.end(), 0);
     // On several ranks all go on, since what follows is collective.
@@ -303,6 +305,7 @@ void MdAdapter::follow_migration(nscd::Bodies* sent) {
         if (sent) nscd::Bodies::for_each_array(*sent, each);
         each(held_);
     };
+    // One row of bytes per body, with all arrays in the same order on both sides.
     visit([&](auto& array) { packer.measure(array); });
     std::vector<char> rows = packer.empty_rows(bodies_.size());
     visit([&](auto& array) { packer.pack(array, rows); });
@@ -319,6 +322,8 @@ nscd::Bodies MdAdapter::at_protocol_positions() const {
 Motion MdAdapter::motion(const nscd::Bodies& bodies) const {
     Motion result{grain_states(bodies), report_};
     for (std::size_t i = 0; i < held_.size(); ++i) {
+        // The fluid subtracts what the grains have felt already: cM (U^{n+1} - U^{n+4/5}) = dt
+        // lambda - J_h.
         result.grains[i].announced_impulse = held_[i].impulse;
         result.grains[i].announced_angular_impulse = held_[i].angular_impulse;
     }

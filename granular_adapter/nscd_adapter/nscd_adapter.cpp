@@ -90,6 +90,7 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     if (ranks_) engine().share_with(*ranks_);
     report_ = {};
     agree([&] {
+        // Refused only if no responses come: with them the fluid gives such grains an inertia.
         light_ = first_light_grain(run_, shapes, grains);
         add_grains(bodies(), run_, shapes, grains);
         check_inside(bodies(), borders_, "at the start");
@@ -97,6 +98,7 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     if (broken_) return motion();
     engine().check_periods();
     start_twists_ = bodies().twist;
+    // Velocities at t^n go with the bodies to other ranks, for rounds that begin again there.
     engine().carry(start_twists_);
     report_.max_penetration = engine_->max_penetration();
     report_.wall_seconds = watch.seconds();
@@ -122,6 +124,7 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
 
 // An advance that is repeated before the kick starts at t^n again; the contact impulses are kept.
 void NscdAdapter::begin_round() {
+    // Empty after a kick: then this is the first round of a window.
     const bool again = !contact_twists_.empty() && contact_twists_.size() == bodies().size();
     if (again)
         bodies().twist = start_twists_;
@@ -143,6 +146,7 @@ nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
     if (broken_) return {};
     // Without responses: free motion under the submerged weight, with the inertia cM of step 4.
     if (!answered_) return engine().step(window.step);
+    // Free velocities and inertia of grain and fluid together, from the responses.
     return engine().step_from(free.velocities, std::move(free.mobilities), window.step);
 }
 

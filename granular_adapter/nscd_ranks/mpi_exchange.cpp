@@ -39,6 +39,7 @@ MpiExchange::MpiExchange(MPI_Comm communicator, Way way) {
     PMPI_Comm_dup(communicator, &communicator_);
     PMPI_Comm_rank(communicator_, &rank_);
     PMPI_Comm_size(communicator_, &size_);
+    // Chosen once for the run, and the same on all ranks.
     if (way == Way::shared_memory_if_possible && on_one_node())
         phases_ = std::make_unique<PhaseWindow>(communicator_);
     else
@@ -82,6 +83,7 @@ std::vector<RankExchange::Bytes> MpiExchange::swap(std::vector<Bytes> given) {
         sizes.push_back(static_cast<int>(part.size()));
         sent.insert(sent.end(), part.begin(), part.end());
     }
+    // Sizes travel first: no rank knows what others will send.
     std::vector<int> coming(sizes.size());
     PMPI_Alltoall(sizes.data(), 1, MPI_INT, coming.data(), 1, MPI_INT, communicator_);
     const Parts out(std::move(sizes)), in(std::move(coming));

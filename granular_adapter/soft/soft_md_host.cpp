@@ -96,6 +96,7 @@ void SoftMdHost::move(double step) {
     const Vec3 fall{0.0, -gravity_, 0.0};
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         Twist& twist = bodies_.twist[i];
+        // v <- v + delta (F/m + g)
         twist.velocity =
             twist.velocity + step * (bodies_.inverse_mass(i) * totals_[i].force + fall);
         twist.spin = twist.spin + step * (bodies_.inverse_inertia(i) * totals_[i].torque);
@@ -105,6 +106,7 @@ void SoftMdHost::move(double step) {
 }
 
 void SoftMdHost::watch(SubstepReport& report) const {
+    // Overwritten in each sub-step: the contacts of the last one.
     report.contacts = std::count_if(forces_.begin(), forces_.end(),
                                     [](const PointForce& force) { return force.pushes; });
     for (const Overlap& overlap : finder_->overlaps())

@@ -101,6 +101,7 @@ Motion YadeAdapter::initialise(const Settings& settings, const ShapeTable& shape
 
 void YadeAdapter::begin_window(const Window& window) {
     const nscd::Bodies& bodies = std::as_const(engine_).bodies();
+    // Compared before reading: what a script has moved since the last window.
     const auto moved = exchange_.moved();
     const python::object grain = moved ? python::object(bodies.id[*moved]) : python::object();
     scene_.attr("begin_window")(window.index, grain);
@@ -120,6 +121,7 @@ Motion YadeAdapter::advance(const Window& window, const std::vector<FreeResponse
     const auto start = Clock::now();
     begin_window(window);
     exchange_.read(engine_.bodies());
+    // Reading YADE's bodies is work of the grains program as well.
     const double reading = seconds_since(start);
     Motion motion = engine_.advance(window, responses);
     motion.report.wall_seconds += reading;

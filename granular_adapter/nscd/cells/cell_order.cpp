@@ -32,6 +32,7 @@ bool CellOrder::is_large(std::int32_t body) const {
 }
 
 CellOrder::Cell CellOrder::cell(const ContactPoint& point) const {
+    // A large body touches more than its neighbouring cells: its contacts belong to none.
     if (is_large(point.a) || is_large(point.b)) return {0, 0, 0, true};
     const std::int32_t owner = point.a >= 0 ? point.a : point.b;  // a has the lower id
     return grid_.cell(scene_.bodies.position[static_cast<std::size_t>(owner)]);
@@ -40,6 +41,7 @@ CellOrder::Cell CellOrder::cell(const ContactPoint& point) const {
 double CellOrder::layer(const ContactPoint& point) const {
     if (!layered_) return 0.0;
     const Vec3& centre = scene_.bodies.position[static_cast<std::size_t>(point.b)];
+    // Depth of the point along gravity, in bands; from b, since a may be a wall.
     return std::floor((dot(down_, centre) + dot(down_, point.arm_b)) / scene_.band);
 }
 
@@ -64,6 +66,7 @@ void CellOrder::take_phase(std::vector<Place>& places, std::vector<std::int32_t>
     });
     for (std::size_t i = 0; i < places.size(); ++i) {
         order.push_back(places[i].point);
+        // The cell ends where the next contact is of another one.
         if (i + 1 < places.size() && places[i + 1].cell == places[i].cell) continue;
         cells_.place.push_back(places[i].cell);
         cells_.end.push_back(static_cast<std::int32_t>(order.size()));

@@ -81,6 +81,7 @@ void NarrowPhase::pair(const PairView& view, std::vector<ContactPoint>& points) 
     const PairChoice& choice = pairs_.at(shape_a * kinds_.size() + shape_b);
     if (!choice.swapped) return choice.detect(view, points);
     const std::size_t before = points.size();
+    // The offset is from the first body to the second, so it is turned with them.
     choice.detect({view.bodies, view.b, view.a, -1.0 * view.offset, view.alert, view.placed},
                   points);
     std::for_each(points.begin() + static_cast<std::ptrdiff_t>(before), points.end(), swap_bodies);

@@ -32,6 +32,7 @@ void take_terms(Contact& contact, const LawTerms& terms, const ContactVector& ap
                 const ContactVector& drive) {
     ContactVector bias{terms.normal_bias, 0.0, 0.0, 0.0};
     if (terms.tangential_restitution != 0.0) {
+        // b_t = e_t u_t^-, along the direction that u_t^- has
         bias.t = terms.tangential_restitution * approach.t;
         bias.s = terms.tangential_restitution * approach.s;
     }
@@ -188,6 +189,7 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         if (law_.remembers()) situations_.push_back(now), terms_.push_back(terms);
         if (terms.attraction != 0.0) {
             attraction_.resize(contacts.points.size(), 0.0);
+            // dt c [N s]
             attraction_[k] = step * terms.attraction;
         }
     }
@@ -202,6 +204,8 @@ void ContactLaws::pull(ContactProblem& problem) const {
     // With r~ = 0 the bodies feel -dt c n: v_free - dt M^-1 H c n.
     std::vector<Twist> pulled = body_velocities(problem, felt(Impulses(problem.contacts.size())));
     for (std::size_t i = 0; i < pulled.size(); ++i)
+        // The largest |dt M^-1 H c|: speeds that may cancel, whose rounding the residual allows
+        // for.
         problem.cancelled =
             std::max(problem.cancelled, norm(pulled[i].velocity - problem.free[i].velocity));
     if (problem.ranks) problem.cancelled = problem.ranks->largest(problem.cancelled);

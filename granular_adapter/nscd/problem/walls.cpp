@@ -13,6 +13,7 @@ namespace {
 
 /// Of a segment or a rectangle along one axis.
 double half_extent(const Wall& wall, std::size_t axis) {
+    // A segment is along e_z x n = (-n_y, n_x): L |n_y| along x, L |n_x| along y.
     if (wall.form != WallForm::rectangle)  // a segment lies in the plane
         return axis < 2 ? std::abs(wall.normal[1 - axis]) * wall.half_length : 0.0;
     const Vec3 across = cross(wall.normal, wall.side);
@@ -71,6 +72,7 @@ Extent extent_of(const Wall& wall) {
 }
 
 double signed_distance(const Wall& wall, const Vec3& point) {
+    // n . (x - p)
     return dot(wall.normal, point - wall.point);
 }
 
@@ -79,6 +81,7 @@ bool is_moving(const Wall& wall) {
 }
 
 Vec3 velocity_at(const Wall& wall, const Vec3& place) {
+    // v(x) = velocity + spin x (x - pivot)
     return wall.twist.at(place - wall.pivot);
 }
 

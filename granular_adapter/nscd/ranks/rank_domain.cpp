@@ -82,6 +82,7 @@ CellSizes RankDomain::sizes(const Bodies& own, const PeriodicBox& box) {
     box_ = box;
     double work = 0.0;
     for (const CellLoad& load : loads_) work += load.work;
+    // Three numbers per rank: its bodies, its span, its work.
     const std::vector<double> all =
         gathered(ranks_, std::vector<double>{static_cast<double>(own.size()),
                                              span_of(own.position, box.lower), work});
@@ -114,6 +115,8 @@ void RankDomain::check_periods(const Bodies& own, const PeriodicBox& box) {
 }
 
 std::vector<Twist> RankDomain::extremes(const std::vector<Twist>& own) const {
+    // The bounding box of all velocities and zero, as in reach.cpp; ranks have round bodies only,
+    // whose spins do not bring surfaces closer.
     Twist low, high;
     const auto extend = [&](const Twist& twist) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -210,6 +213,8 @@ std::vector<int> RankDomain::holders(const ParityGrid& grid, const Bodies& bodie
     grid.each_cell_near(
         x, [&](const ParityGrid::Cell& cell) { found.push_back(cuts_.rank(grid.centre(cell))); });
     for (const Large& other : large_)
+        // A large body reaches beyond the distance d of the cells, so its pairs are looked for one
+        // by one; a little farther, so that rounding misses none.
         if (norm(box_.minimum_image(other.position - x)) < 1.001 * grid.bound(radius, other.radius))
             found.push_back(0);
     std::sort(found.begin(), found.end());
@@ -245,6 +250,7 @@ void RankDomain::number_shared(const ParityGrid& grid, const Bodies& bodies) {
     holders_.assign(bodies.size(), {});
     shared_.clear();
     const auto number = [&](std::size_t i) {
+        // A body may be lent to several ranks: it is numbered once.
         if (!shared_.emplace(bodies.id[i], static_cast<std::int32_t>(i)).second) return;
         holders_[i] = holders(grid, bodies, i);
         std::erase(holders_[i], me);
@@ -357,6 +363,7 @@ const RankPlan& RankDomain::plan(const ParityGrid& grid, const Bodies& bodies,
     for (std::size_t cell = 0; cell < found.cells.size(); ++cell) {
         const std::int32_t first = found.cells.first(cell), end = found.cells.end[cell];
         const ContactPoint& point = found.points[static_cast<std::size_t>(first)];
+        // The body with the lower id, whose cell the contact is in.
         const auto body = static_cast<std::size_t>(point.a >= 0 ? point.a : point.b);
         loads_.push_back(
             {grid.centre(grid.cell(bodies.position[body])), static_cast<double>(end - first)});

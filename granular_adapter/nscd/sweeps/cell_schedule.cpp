@@ -35,6 +35,8 @@ class CellGroups {
 
     /// False if the present stretch is full.
     bool place(std::int32_t contact, const MovedPair& pair) {
+        // Any order within a cell will do: the first group with a free lane and neither body in or
+        // near it.
         const int group = Groups::first_outside(full_, near(pair.a), near(pair.b));
         if (group == most_groups) return false;
         make_room(group);

@@ -14,6 +14,8 @@ class Placement {
         : settings_(settings), ready_(bodies, 0) {}
 
     void place(std::int32_t contact, const MovedPair& pair) {
+        // Not before the group after which both bodies are free: contacts of one body keep their
+        // order.
         const std::int32_t group = first_free(std::max(ready(pair.a), ready(pair.b)));
         if (group >= groups()) {
             lanes_.resize(static_cast<std::size_t>(group + 1) * width(), -1);

@@ -34,6 +34,7 @@ std::vector<std::vector<End>> ends_by_body(const ContactProblem& problem,
     std::vector<std::vector<End>> ends(bodies.size());
     const auto add = [&](std::int32_t body, std::int32_t k, bool at_b) {
         if (body < 0) return;
+        // An immovable body couples no contacts: M^-1 = 0.
         if (!is_immovable(bodies[body])) ends[body].push_back(end_of(problem.contacts[k], k, at_b));
     };
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(problem.contacts.size()); ++k) {

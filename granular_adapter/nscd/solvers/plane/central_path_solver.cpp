@@ -96,6 +96,8 @@ class Search {
     double look(const ScaledContacts& contacts, const PathPoint& point) {
         latest_.impulses.resize(contacts.size());
         for (std::size_t k = 0; k < contacts.size(); ++k)
+            // A point of the path is judged by the same measure as sweeps, in the units of the
+            // problem.
             latest_.impulses[k] = contacts.physical(k, point.r[k]);
         latest_.velocities = body_velocities(problem_, latest_.impulses);
         latest_.residual =

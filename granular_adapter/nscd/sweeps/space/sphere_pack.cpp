@@ -58,6 +58,7 @@ void fill(TurningSphereRows<lanes>& rows, int lane, const SphereToPack& packed) 
 
 template <int lanes>
 void fill_film(FilmSphereRows<lanes>& rows, int lane, const Film& film, double nn) {
+    // Coefficients of the quadratic (film.hpp), constant in a solve.
     const FilmEquation equation(film, nn);
     rows.nn.v[lane] = nn;
     rows.film_a.v[lane] = equation.a;
