@@ -163,8 +163,7 @@ void LammpsMdHost::add_loads(double time, bool begins) {
         free.each_turn([&](int axis) {
             torque[i][axis] += mine[free.load_turn[axis]];
             mine[free.impulse_turn[axis]] += time * torque[i][axis];
-            // LAMMPS divides torques by its own moment of inertia, c m R^2: times c m R^2/I it is
-            // I.
+            // LAMMPS divides torques by its own moment c m R^2; with the factor c m R^2/I by I.
             torque[i][axis] *= mine[turn_factor];
         });
         f[i][1] -= mass[i] * gravity_;
@@ -183,6 +182,7 @@ void LammpsMdHost::probe() {
 // ---- bodies that come and go -----------------------------------------------------------------
 
 void LammpsMdHost::follow_grains() {
+    // On one rank grains keep their places, in whatever order LAMMPS has them.
     if (ranks_ == 1) return;
     order_ = new_order(grains_->origins(), rank_);
     const bool arrived = std::any_of(order_.begin(), order_.end(),

@@ -90,8 +90,7 @@ void RoundGrains::take(const std::vector<Newcomer>& newcomers, int giver, int fi
         // A double holds 32 bits exactly, but not 64.
         own[id_high] = double(disc.id >> 32);
         own[id_low] = double(disc.id & 0xFFFFFFFF);
-        // What is kept about the grain is still with the rank that had it: follow_grains() fetches
-        // it.
+        // The row of the grain is still with the giver; migrate() fetches it.
         lammps_.atoms<int*>("i_from_rank")[i] = giver;
         lammps_.atoms<int*>("i_from_place")[i] = int(k);
     }

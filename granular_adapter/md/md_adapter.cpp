@@ -133,8 +133,7 @@ Substeps MdAdapter::substeps(const Window& window) const {
 /// The host applies the same gravity to every body; the difference to the body's own weight is a
 /// load.
 Load MdAdapter::load(std::size_t i, double dt) const {
-    // F = J_h/dt + (cM - m_w) g e_y with the submerged weight m_w g: the host itself adds -cM g
-    // e_y.
+    // F = J_h/dt + (cM - m_w) g e_y: the weight is m_w g, but the host itself adds -cM g e_y.
     const Vec3 buoyant{0.0, (bodies_.mass[i] - bodies_.weight_mass[i]) * run_.gravity, 0.0};
     return {(1.0 / dt) * held_[i].impulse + buoyant, (1.0 / dt) * held_[i].angular_impulse};
 }
@@ -159,7 +158,7 @@ void MdAdapter::repeat(const Window& window, const std::vector<FreeResponse>& ta
     std::vector<Held> held = held_;
     for (std::size_t i = 0; i < held.size(); ++i) {
         const Twist& found = bodies_.twist[i];
-        // J = J_h + cM (U - U^{n+4/5}): takes the grain to U if its contacts stay as they were.
+        // Held next: J_h + cM (U - U^{n+4/5}), which leads to U if contacts stay as they were.
         held[i].impulse =
             held[i].impulse + bodies_.mass[i] * (ordered[i]->velocity - found.velocity);
         held[i].angular_impulse =

@@ -94,8 +94,7 @@ void take_adhesion(const Settings& settings, nscd::EngineSettings& result) {
     const double diameter = settings.real("run.diameter");
     nscd::LawSettings& laws = result.law_settings;
     laws.reference_diameter = diameter;
-    // Lengths of the case are in D, forces in grain weights, speeds in u_c; the engine's in m, N,
-    // m/s.
+    // In the case lengths are in D, forces in grain weights and speeds in u_c.
     laws.adhesion_range = diameter * settings.real("contact.adhesion_range");
     take(settings, "contact.adhesion_length", diameter, laws.adhesion_length);
     take(settings, "contact.adhesion_shear", 1.0, laws.adhesion_shear);

@@ -85,6 +85,7 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     moved_walls_ = motions_of(settings, "run.wall_motions");
     moved_grains_ = motions_of(settings, "run.grain_motions");
     std::vector<nscd::Wall> walls = walls_of(borders_);
+    // Sides first, then the walls inside the box, whose keys follow theirs.
     for (const nscd::Wall& wall : inner_walls(settings)) walls.push_back(wall);
     engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls);
     if (ranks_) engine().share_with(*ranks_);
@@ -156,6 +157,7 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
         throw std::logic_error("apply_kick must be preceded by advance in the same window");
     dumps_.after(window, engine().problem());
     agree([&] {
+        // Dry cases have no kicks: the velocities of the contacts are final.
         if (run_.wet || !kicks.empty())
             take_velocities(bodies(), kicks, in_window(window), run_.dimension);
         check_velocities(bodies(), in_window(window) + " after the kick");

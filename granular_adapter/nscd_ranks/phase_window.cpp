@@ -94,6 +94,7 @@ void PhaseWindow::prepare(const std::vector<Traffic>& phases) {
     // By receiver, its offsets of all phases: what it needs to know lies together.
     std::vector<unsigned long long> told(phases.size() * ranks), got(told.size());
     sent_at_.assign(phases.size() * ranks, 0), received_at_ = sent_at_;
+    // The first line of each part is its count of phases.
     unsigned long long end = line;
     std::vector<char> meets(ranks, 0);
     for (std::size_t phase = 0; phase < phases.size(); ++phase)

@@ -93,6 +93,8 @@ void SoftMdHost::find_forces(const std::vector<Load>& loads, double step) {
 }
 
 void SoftMdHost::move(double step) {
+    // The same gravity for all bodies; what the weight of a body in the fluid differs by is in its
+    // load.
     const Vec3 fall{0.0, -gravity_, 0.0};
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         Twist& twist = bodies_.twist[i];

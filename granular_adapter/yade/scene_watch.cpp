@@ -28,7 +28,6 @@ SceneWatch::SceneWatch(std::size_t count, const python::object& bodies, const Bo
 }
 
 bool SceneWatch::changed(std::size_t count, const BodyStates& states) const {
-    // Without a change this costs one comparison per body: no list is made anew.
     if (count != count_) return true;
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         if (id_of(bodies_[i]) != ids_[i]) return true;

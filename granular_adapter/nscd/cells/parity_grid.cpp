@@ -14,7 +14,7 @@ constexpr double edge_over_distance = 5.0;
 // Radius over the median from which a body is large.
 constexpr double large_over_median = 4.0;
 
-// Three axes in 63 bits. Indices are below 2^20, but the place of the last one is 2^20.
+// Indices are below 2^20, but the place of the last one (place_along) is 2^20.
 constexpr int axis_bits = 21;  // three axes in 63 bits
 constexpr std::int64_t cells_per_axis = std::int64_t{1} << 20;
 

@@ -54,8 +54,7 @@ Axis make_axis(double low, double high, double cell, bool repeats) {
     Axis axis{low, cell, 1, repeats};
     const double ratio = std::floor((high - low) / cell);
     // More cells than this are never useful, and the cast below must not overflow.
-    // Cells of a periodic axis share its length; on others the last one holds `high` itself, hence
-    // + 1.
+    // Cells of a periodic axis share its length; elsewhere the last one holds `high`, hence + 1.
     const double cells = std::clamp(repeats ? ratio : ratio + 1.0, 1.0, 1e6);
     axis.n = static_cast<std::int64_t>(cells);
     if (repeats) axis.cell = (high - low) / cells;

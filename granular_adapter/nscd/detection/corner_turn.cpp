@@ -23,8 +23,7 @@ class Shortfall {
     double operator()(std::size_t k) const {
         const ContactPoint& p = step_.points[k];
         if (p.turns_with == 0) return 0.0;
-        // In the terms of the header: O (`owner`) has the side, I is the other; n points from O to
-        // I.
+        // As in the header, O (`owner`) has the side and I is the other; n points from O to I.
         const bool on_a = p.turns_with == 1;
         const Partner a = partner_a(p), b = partner_b(p);
         const Partner &owner = on_a ? a : b, &other = on_a ? b : a;

@@ -280,6 +280,7 @@ void Engine::move(double dt, const std::vector<Twist>& velocities) {
 double Engine::max_penetration() {
     if (!ranks_) return detection_.deepest_overlap(bodies_, placed_walls(0.0));
     forget_step();
+    // Reach and share zero: only pairs that overlap count here.
     grid_ = std::make_unique<ParityGrid>(ranks_->sizes(bodies_, settings_.box), settings_.box, 0.0,
                                          0.0);
     ranks_->settle(*grid_, share({}, nullptr));
@@ -304,6 +305,7 @@ double Engine::contact_violation() {
 /// The bodies of the points as they are now.
 void Engine::follow_bodies() {
     if (!ranks_) return;
+    // The host may have changed the own bodies; copies follow from their owners.
     std::copy(bodies_.position.begin(), bodies_.position.end(), present_.position.begin());
     std::copy(bodies_.twist.begin(), bodies_.twist.end(), present_.twist.begin());
     ranks_->follow(present_);

@@ -204,8 +204,8 @@ void ContactLaws::pull(ContactProblem& problem) const {
     // With r~ = 0 the bodies feel -dt c n: v_free - dt M^-1 H c n.
     std::vector<Twist> pulled = body_velocities(problem, felt(Impulses(problem.contacts.size())));
     for (std::size_t i = 0; i < pulled.size(); ++i)
-        // The largest |dt M^-1 H c|: speeds that may cancel, whose rounding the residual allows
-        // for.
+        // The largest |dt M^-1 H c|: speeds that may cancel, for the rounding floor of the
+        // residual.
         problem.cancelled =
             std::max(problem.cancelled, norm(pulled[i].velocity - problem.free[i].velocity));
     if (problem.ranks) problem.cancelled = problem.ranks->largest(problem.cancelled);

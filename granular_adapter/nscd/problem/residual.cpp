@@ -63,6 +63,7 @@ double contact_violation(const ContactProblem& problem, const Impulses& r,
         double largest = 0.0;
         for (std::size_t k = 0; k < r.size(); ++k) {
             const double u = biased_velocity(problem.contacts[k], v).n;
+            // max |min(u_n, W_nn r_n)|, with films |W_nn (r_n* - r_n)|
             largest = std::max(largest, violation(film_of(problem, k), w.block(k).nn, r[k].n, u));
         }
         return largest;

@@ -19,8 +19,7 @@ constexpr std::int64_t steps_between_cuts = 20;
 
 constexpr std::size_t parities = 8;
 
-/// The body whose rank keeps what is known of a contact.
-// At a wall `first` is the key of the wall.
+/// The body whose rank keeps what is known of a contact; at a wall `first` is the wall's key.
 GrainId keeper(const ContactKey& key) {
     return key.wall != 0 ? key.second : key.first;
 }

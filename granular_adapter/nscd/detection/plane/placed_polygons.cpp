@@ -53,8 +53,8 @@ PlacedPolygons::PlacedPolygons(const PolygonShapes& shapes, const Bodies& bodies
     for (std::size_t i = 0; i < bodies.size(); ++i) place(i);
 }
 
-// A quaternion (w, 0, 0, z) rotates by the angle of cosine w^2 - z^2 and sine 2 w z, both over w^2
-// + z^2 where rounding has changed its length.
+// A quaternion (w, 0, 0, z) rotates by the angle of cosine w^2 - z^2 and sine 2 w z; both are
+// divided by w^2 + z^2, which rounding may have changed from 1.
 void PlacedPolygons::place(std::size_t body) {
     const PolygonShapes::UnitPolygon& unit = shapes_[bodies_.shape[body]];
     const Quaternion& q = bodies_.orientation[body];

@@ -97,8 +97,7 @@ DelassusMatrix::DelassusMatrix(const ContactProblem& problem) {
         for (const std::int32_t body : {contact.a, contact.b})
             if (body >= 0 && !ends[body].empty())
                 collect(row, blocks.bodies()[body], ends[body], k);
-        // Stable: where two contacts share both bodies, their two shares are added in the order a,
-        // b.
+        // Stable: two contacts that share both bodies get their shares in the order a, b.
         std::stable_sort(row.begin(), row.end());
         for (const RowEntry& entry : row) {
             const bool same = std::int64_t(column.size()) > row_start.back() &&

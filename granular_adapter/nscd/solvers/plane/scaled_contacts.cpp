@@ -35,8 +35,8 @@ Matrix3d rows(const Contact& contact, const Vec3& arm, const BodyMobility& body,
     h.row(0) << contact.normal[0], contact.normal[1], cross_z(arm, contact.normal);
     h.row(1) << contact.tangent[0], contact.tangent[1], cross_z(arm, contact.tangent);
     h.row(2) << 0.0, 0.0, scales.length;
-    // Impulses times and velocities over sqrt(W_nn): A^T = H^T L/sqrt(W_nn), so that (A^T A)_nn =
-    // 1.
+    // A^T = H^T L/sqrt(W_nn), so that (A^T A)_nn = 1: velocities are divided by sqrt(W_nn), and
+    // impulses multiplied.
     return h * root(body) / scales.impulse;
 }
 
@@ -53,7 +53,7 @@ ScaledContacts::ScaledContacts(const ContactProblem& problem, const Delassus& w)
         scaled.impulse = std::sqrt(block.nn);
         scaled.length = block.rr > 0.0 ? rolling_length(block) : 0.0;
         scaled.friction = contact.friction;
-        // m| <= rolling r_n, with the moment over `length` in the units of an impulse.
+        // |m| <= rolling r_n, with the moment over `length` in the units of an impulse.
         scaled.rolling = block.rr > 0.0 ? contact.rolling / scaled.length : 0.0;
         scaled.at_b = rows(contact, contact.arm_b, w.bodies()[contact.b], scaled);
         if (contact.a >= 0)
