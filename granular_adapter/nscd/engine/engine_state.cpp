@@ -86,7 +86,7 @@ void append_entries(std::vector<Entry>& all, const std::vector<Entry>& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Each once, in the order of the keys.
+/// In the order of the keys; each is there once, since one rank keeps it.
 void sort_by_key(std::vector<RememberedState>& states) {
     std::sort(states.begin(), states.end(),
               [](const RememberedState& a, const RememberedState& b) { return a.key < b.key; });
