@@ -77,6 +77,7 @@ void declare_walls(Library& lammps, const SoftLaw& law, const std::vector<double
 }  // namespace
 
 void declare_box(Library& lammps, int dimension, const Vec3& size, std::size_t types) {
+    // Boundaries `m` follow grains outwards; one layer of ranks along y and z makes strips along x.
     const bool in_space = dimension == 3;
     run_all(lammps, {"units si", fmt::format("dimension {}", dimension),
                      in_space ? "boundary m m m" : "boundary m m p", "atom_style sphere",
@@ -98,6 +99,7 @@ void declare_engines(Library& lammps, const Engines& engines) {
     declare_pairs(lammps, engines.law, masses);
     lammps.command(fmt::format("neighbor {:.17g} bin", engines.skin));
     run_all(lammps,
+            // Lists are checked in every sub-step; the strips get equally many grains, to 10 %.
             {"neigh_modify every 1 delay 0 check yes",
              engines.in_space ? "fix motion all nve/sphere" : "fix motion all nve/sphere disc",
              "fix balance all balance 0 1.1 shift x 10 1.05"});

@@ -206,6 +206,7 @@ void Engine::pose(const std::vector<Twist>& free, Mobilities mobilities, double 
 Impulses Engine::initial_guess(double dt) const {
     if (!in_space()) return memory_.guesses(keys_, dt);
     Impulses guess = from_world_axes(problem_, memory_.guesses(keys_, dt));
+    // All ranks or none have moments: passes over them exchange bodies between ranks.
     if (on_any_rank(problem_, !turning_memory_.contacts().empty()))
         guess.moments = moments_of(turning_memory_.guesses(keys_, dt));
     return guess;
