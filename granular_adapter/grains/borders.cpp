@@ -50,6 +50,8 @@ std::vector<Border> lay_borders(const Settings& settings) {
         plane.normal[axis] = inward;
         plane.point[axis] = inward > 0.0 ? 0.0 : run.size[axis];
         plane.material = material;
+        // The key is the number of the side in the protocol: 0 left, 1 right, 2 bottom, 3 top, 4
+        // front, 5 back.
         plane.key = static_cast<std::int32_t>(i);
         borders.push_back({name, kind_of(types[i]), plane});
     }
@@ -93,6 +95,7 @@ std::vector<std::uint8_t> those_inside(const nscd::Bodies& bodies,
     std::vector<std::uint8_t> inside(bodies.size(), 1);
     for (std::size_t i = 0; i < bodies.size(); ++i)
         for (const Border& border : borders)
+            // Gone where no part of the grain is left inside.
             if (border.side == BorderKind::free &&
                 signed_distance(border.plane, bodies.position[i]) < -bodies.radius[i])
                 inside[i] = 0;

@@ -31,6 +31,7 @@ nscd::Body immersed(const GrainState& grain, const ImmersedBody& inertia) {
     body.density = grain.density;
     const bool sinks = denser_than_the_fluid(inertia);
     body.mass = sinks ? inertia.effective_mass : inertia.mass;
+    // The moment about z is the only one in the plane, and that about any axis of a sphere.
     body.inertia = sinks ? inertia.effective_inertia(2, 2) : inertia.inertia(2, 2);
     body.weight_mass = inertia.submerged_mass;
     body.position = grain.position;

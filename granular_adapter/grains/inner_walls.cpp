@@ -13,6 +13,7 @@ nscd::Wall wall_of(const Plate& plate) {
     const double length = norm(along);
     nscd::Wall wall;
     wall.point = plate.from + 0.5 * along;
+    // n = e_z x t. Grains may be on both sides, so its sense does not matter.
     wall.normal = {-along[1] / length, along[0] / length, 0.0};
     wall.half_length = 0.5 * length;
     wall.twist = plate.motion->rate(0.0, 1.0);  // of those that follow a motion: set later
@@ -44,6 +45,8 @@ nscd::Wall surface_of(const SpaceWall& from) {
     wall.normal = unit(from.a);
     const double height = from.kind == SpaceWallKind::ring ? 0.0 : norm(from.a);
     const double end = from.kind == SpaceWallKind::cylinder ? from.radius : from.radius2;
+    // Two ends (radius, height): a cylinder has the same radius at both, a cone another one, and a
+    // ring two radii at the same height.
     wall.meridian = {{{from.radius, 0.0}, {end, height}}};
     return wall;
 }

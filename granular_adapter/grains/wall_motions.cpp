@@ -9,6 +9,8 @@ void set_velocities(std::vector<nscd::Wall>& walls, const std::vector<Moved>& mo
                     double step) {
     for (nscd::Wall& wall : walls)
         for (const Moved& entry : moved)
+            // (d(t + dt) - d(t))/dt: at the end of the window the wall is where its motion
+            // prescribes.
             if (entry.what == wall.key) wall.twist = entry.motion->rate(time, step);
 }
 

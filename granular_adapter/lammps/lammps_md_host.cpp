@@ -57,6 +57,7 @@ void LammpsMdHost::create(const Settings& settings, const ShapeTable&, const nsc
         1, std::llround(settings.real("contact.md_substeps") / probes_per_contact));
     classes_.emplace(bodies.mass, communicator_);
     walls_ = wall_fixes(*classes_, borders_);
+    // A rank without grains must not decide: the size of the domain is larger than any radius.
     double radius = size_[0];
     for (const double r : bodies.radius) radius = std::min(radius, r);
     skin_ = neighbour_margin * smallest_of_all(radius, communicator_);
@@ -139,6 +140,8 @@ void LammpsMdHost::on_substep(void* host, std::int64_t substep, int count, int*,
 /// Velocity Verlet: the forces at the beginning and at the end act for half a sub-step.
 void LammpsMdHost::act(std::int64_t substep) {
     const bool begins = substep == present_.first, ends = substep == present_.last;
+    // count + 1 calls for count sub-steps: the first one is at the start, before anything has
+    // moved.
     add_loads((begins || ends ? 0.5 : 1.0) * present_.step, begins);
     if (ends || (!begins && (substep - present_.first) % stride_ == 0)) probe();
 }
@@ -154,14 +157,18 @@ void LammpsMdHost::add_loads(double time, bool begins) {
         double* mine = own[i];
         free.each_push([&](int axis) {
             f[i][axis] += mine[free.load[axis]];
+            // All forces but the weight, which is added below.
             mine[free.impulse[axis]] += time * f[i][axis];
         });
         free.each_turn([&](int axis) {
             torque[i][axis] += mine[free.load_turn[axis]];
             mine[free.impulse_turn[axis]] += time * torque[i][axis];
+            // LAMMPS divides torques by its own moment c m R^2; with the factor c m R^2/I by I.
             torque[i][axis] *= mine[turn_factor];
         });
         f[i][1] -= mass[i] * gravity_;
+        // omega is that of the middle of the sub-step here, as the velocity that has moved the
+        // position.
         if (!begins) grains_->turn(mine, omega[i], present_.step);
     }
 }
@@ -175,6 +182,7 @@ void LammpsMdHost::probe() {
 // ---- bodies that come and go -----------------------------------------------------------------
 
 void LammpsMdHost::follow_grains() {
+    // On one rank grains keep their places, in whatever order LAMMPS has them.
     if (ranks_ == 1) return;
     order_ = new_order(grains_->origins(), rank_);
     const bool arrived = std::any_of(order_.begin(), order_.end(),
@@ -204,6 +212,7 @@ void LammpsMdHost::keep(const std::vector<std::uint8_t>& mask) {
     });
     for (std::size_t place = 0; place < mask.size(); ++place)
         if (mask[place]) stays.push_back({rank_, int(place)});
+    // LAMMPS deletes grains in a command of all ranks, which needs the same list everywhere.
     const std::vector<std::int64_t> gone = gather_all(mine, communicator_);
     if (gone.empty()) return;
     grains_->remove(gone);
@@ -225,6 +234,7 @@ void LammpsMdHost::restore(const SavedState& state) {
     if (rank_ == 0) file.write(state);
     lammps_->command("clear");
     lammps_->command("read_restart " + file.name());
+    // A restart file has atoms and their values, not the commands of the scene.
     declare_properties(*lammps_, grains_->in_space() ? 3 : 2);
     start_engines();
 }

@@ -12,6 +12,8 @@ using Masses = std::set<double>;
 
 /// The different masses; of more than `most` only the smallest ones and the largest.
 Masses few(Masses all) {
+    // One more than there are types is enough to know that there are too many; the classes then
+    // need the extremes only.
     while (all.size() > MassClasses::most + 1) all.erase(std::prev(all.end(), 2));
     return all;
 }
@@ -20,6 +22,7 @@ Masses of_all_ranks(const Masses& mine, MPI_Comm communicator) {
     constexpr int room = int(MassClasses::most) + 1;
     int ranks = 1;
     MPI_Comm_size(communicator, &ranks);
+    // Zero fills the places that are left.
     std::vector<double> own(room, 0.0), all(std::size_t(room * ranks));
     std::copy(mine.begin(), mine.end(), own.begin());
     MPI_Allgather(own.data(), room, MPI_DOUBLE, all.data(), room, MPI_DOUBLE, communicator);
@@ -29,6 +32,7 @@ Masses of_all_ranks(const Masses& mine, MPI_Comm communicator) {
 }
 
 std::vector<double> middles(double lightest, double heaviest, std::size_t count) {
+    // m_i = m_min exp((i + 1/2) w),   w = ln(m_max/m_min)/K
     const double width = std::log(heaviest / lightest) / double(count);
     std::vector<double> result;
     for (std::size_t i = 0; i < count; ++i)

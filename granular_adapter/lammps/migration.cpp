@@ -29,6 +29,7 @@ Parts counted_back(const Parts& sent, MPI_Comm communicator) {
 
 std::vector<Origin> new_order(std::vector<Origin> found, int rank) {
     const auto key = [rank](const Origin& o) {
+        // The own ones first.
         return std::make_tuple(o.rank != rank, o.rank, o.place);
     };
     std::sort(found.begin(), found.end(),
@@ -47,6 +48,7 @@ std::vector<char> fetch_rows(const std::vector<Origin>& order, const std::vector
         asked.insert(asked.end(), places.begin(), places.end());
         sizes.push_back(int(places.size()));
     }
+    // First the places are sent to the ranks that have the rows, then the rows come back.
     const Parts ask(sizes), give = counted_back(ask, communicator);
     std::vector<int> places(std::size_t(give.total()));
     MPI_Alltoallv(asked.data(), ask.count.data(), ask.first.data(), MPI_INT, places.data(),
@@ -55,6 +57,7 @@ std::vector<char> fetch_rows(const std::vector<Origin>& order, const std::vector
     for (std::size_t i = 0; i < places.size(); ++i)
         std::memcpy(&given[i * row_size], &rows[std::size_t(places[i]) * row_size], row_size);
     MPI_Datatype row;
+    // Counted in rows, so that counts and offsets stay far below the limit of an int.
     MPI_Type_contiguous(int(row_size), MPI_BYTE, &row);
     MPI_Type_commit(&row);
     MPI_Alltoallv(given.data(), give.count.data(), give.first.data(), row, got.data(),

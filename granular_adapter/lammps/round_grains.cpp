@@ -28,6 +28,7 @@ std::string RoundGrains::declaration(int dimension) {
 RoundGrains::Newcomer RoundGrains::newcomer(const nscd::Bodies& bodies, std::size_t i,
                                             const MassClasses& classes) const {
     const double mass = bodies.mass[i], radius = bodies.radius[i];
+    // c m R^2/I: LAMMPS turns spheres with c = 2/5 and discs with c = 1/2.
     const double share = in_space() ? 0.4 : 0.5;  // of m R^2
     return {bodies.id[i],
             classes.type_of(mass),
@@ -86,8 +87,10 @@ void RoundGrains::take(const std::vector<Newcomer>& newcomers, int giver, int fi
         freedom().each_turn([&](int axis) { omega[axis] = disc.spin[axis]; });
         own[turn_factor] = disc.turn_factor;
         set_orientation(own, disc.orientation);
+        // A double holds 32 bits exactly, but not 64.
         own[id_high] = double(disc.id >> 32);
         own[id_low] = double(disc.id & 0xFFFFFFFF);
+        // The row of the grain is still with the giver; migrate() fetches it.
         lammps_.atoms<int*>("i_from_rank")[i] = giver;
         lammps_.atoms<int*>("i_from_place")[i] = int(k);
     }
@@ -163,6 +166,7 @@ void RoundGrains::number(const std::vector<Origin>& order, int rank) {
     };
     std::sort(by_origin.begin(), by_origin.end(), before);
     for (int i = 0; i < lammps_.local_count(); ++i) {
+        // The place in the new order of the grain that came from there.
         const std::pair<Origin, int> wanted{{from_rank[i], from_place[i]}, 0};
         const auto found = std::lower_bound(by_origin.begin(), by_origin.end(), wanted, before);
         from_rank[i] = rank;

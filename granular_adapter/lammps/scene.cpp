@@ -20,6 +20,7 @@ void run_all(Library& lammps, std::initializer_list<std::string> lines) {
 /// k = m w^2; LAMMPS multiplies the dashpot's coefficient, 2 zeta w, by the reduced mass.
 std::string contact(const SoftLaw& law, double reduced_mass) {
     const double stiffness = reduced_mass * law.frequency * law.frequency;
+    // hooke k c, tangential a k, a c, mu: the same ratio a for spring and dashpot.
     return fmt::format(
         "hooke {:.17g} {:.17g} tangential linear_history {:.17g} {:.17g} {:.17g} damping "
         "mass_velocity limit_damping",
@@ -40,6 +41,8 @@ struct Plane {
     const char* name;
     std::size_t low, high;  ///< among the borders
 };
+// Borders are in the order left, right, bottom, top, front, back; in the plane the last two are
+// missing.
 constexpr Plane planes[] = {{"xplane", 0, 1}, {"yplane", 2, 3}, {"zplane", 4, 5}};
 
 bool has_wall(const Plane& plane, const std::vector<Border>& borders) {
@@ -63,6 +66,7 @@ void declare_walls(Library& lammps, const SoftLaw& law, const std::vector<double
         for (int axis = 0; axis < 3; ++axis) {
             const Plane& plane = planes[axis];
             if (!has_wall(plane, borders)) continue;
+            // One fix per class of masses: at a wall the spring is that of the grain's own mass.
             lammps.command(fmt::format("fix {} class{} wall/gran granular {} {} {} {} contacts",
                                        fix_name(plane, type), type, contact(law, masses[type - 1]),
                                        plane.name, place(borders[plane.low], axis),
@@ -73,6 +77,7 @@ void declare_walls(Library& lammps, const SoftLaw& law, const std::vector<double
 }  // namespace
 
 void declare_box(Library& lammps, int dimension, const Vec3& size, std::size_t types) {
+    // Boundaries `m` follow grains outwards; one layer of ranks along y and z makes strips along x.
     const bool in_space = dimension == 3;
     run_all(lammps, {"units si", fmt::format("dimension {}", dimension),
                      in_space ? "boundary m m m" : "boundary m m p", "atom_style sphere",
@@ -94,6 +99,7 @@ void declare_engines(Library& lammps, const Engines& engines) {
     declare_pairs(lammps, engines.law, masses);
     lammps.command(fmt::format("neighbor {:.17g} bin", engines.skin));
     run_all(lammps,
+            // Lists are checked in every sub-step; the strips get equally many grains, to 10 %.
             {"neigh_modify every 1 delay 0 check yes",
              engines.in_space ? "fix motion all nve/sphere" : "fix motion all nve/sphere disc",
              "fix balance all balance 0 1.1 shift x 10 1.05"});

@@ -71,6 +71,7 @@ void for_walls(const Library& lammps, const std::vector<std::string>& fixes, Vis
 void fill(ContactRecord& record, const Vec3& force, double overlap, double friction,
           double window) {
     const double normal = dot(force, record.normal);
+    // N = n . F,   |T| = |F - N n|, at the limit if |T| >= mu N
     const double along = norm(force - normal * record.normal);
     record.status = along >= (1.0 - 1e-9) * friction * normal ? ContactStatus::sliding : 0;
     record.gap = -overlap;
@@ -104,12 +105,15 @@ class PairRecords {
         const GrainId ids[] = {grains_.id(first), grains_.id(second)};
         const double* radius = lammps_.atoms<double*>("radius");
         const double r = radius[first], overlap = r + radius[second] - pair.distance;
+        // `apart` and `force` are of the first grain. If it is a, both are turned: the normal goes
+        // from a to b, and the force is that on b.
         const double sense = ids[0] < ids[1] ? -1.0 : 1.0;  // of b
         ContactRecord record;
         record.a = std::min(ids[0], ids[1]);
         record.b = std::max(ids[0], ids[1]);
         record.normal = (sense / pair.distance) * pair.apart;
         record.branch = sense * pair.apart;
+        // The middle of the overlap.
         record.point = centre(lammps_, first) - ((r - 0.5 * overlap) / pair.distance) * pair.apart;
         fill(record, sense * pair.force, overlap, friction_, window_);
         return record;
@@ -125,6 +129,7 @@ class PairRecords {
 /// The side that a point of a wall belongs to.
 std::int32_t side_of(const Vec3& point, const Vec3& grain, const Vec3& size) {
     int axis = 0;
+    // The point of a wall differs from the centre along the axis of the wall only.
     while (axis < 2 && point[axis] == grain[axis]) ++axis;
     return 2 * axis + (point[axis] < 0.5 * size[axis] ? 0 : 1);
 }

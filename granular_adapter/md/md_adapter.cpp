@@ -100,6 +100,7 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     agree([&] {
         if (const auto light = first_light_grain(run_, shapes, grains)) refuse_light_grain(*light);
         add_grains(bodies_, run_, shapes, grains);
+        // x = q - (dt - s)/2 U: from the positions of the protocol to those of the host.
         nscd::move(bodies_, bodies_.twist, -lead(), box_);
         check_inside(bodies_, borders_, "at the start");
     });
@@ -115,6 +116,7 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
 
 /// What velocities are behind the host's positions, in time [s].
 double MdAdapter::velocity_lag() const {
+    // s: delta for leap-frog, 0 for velocity Verlet.
     return host_.velocity_lag() * (run_.step / static_cast<double>(substep_count_));
 }
 
@@ -131,6 +133,7 @@ Substeps MdAdapter::substeps(const Window& window) const {
 /// The host applies the same gravity to every body; the difference to the body's own weight is a
 /// load.
 Load MdAdapter::load(std::size_t i, double dt) const {
+    // F = J_h/dt + (cM - m_w) g e_y: the weight is m_w g, but the host itself adds -cM g e_y.
     const Vec3 buoyant{0.0, (bodies_.mass[i] - bodies_.weight_mass[i]) * run_.gravity, 0.0};
     return {(1.0 / dt) * held_[i].impulse + buoyant, (1.0 / dt) * held_[i].angular_impulse};
 }
@@ -142,6 +145,7 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
             "responses of the fluid were received " + in_window(window) +
             ", but molecular dynamics cannot use them: use coupling.scheme split");
     if (!responses.empty()) repeat(window, responses);
+    // The first round of a window, which later ones begin from.
     if (responses.empty() && repeats_) start_ = save();
     Motion result = play(window);
     result.report.wall_seconds = report_.wall_seconds = seconds_since(start);
@@ -154,6 +158,7 @@ void MdAdapter::repeat(const Window& window, const std::vector<FreeResponse>& ta
     std::vector<Held> held = held_;
     for (std::size_t i = 0; i < held.size(); ++i) {
         const Twist& found = bodies_.twist[i];
+        // Held next: J_h + cM (U - U^{n+4/5}), which leads to U if contacts stay as they were.
         held[i].impulse =
             held[i].impulse + bodies_.mass[i] * (ordered[i]->velocity - found.velocity);
         held[i].angular_impulse =
@@ -169,6 +174,8 @@ Motion MdAdapter::play(const Window& window) {
     agree([&] { check_inside(bodies_, borders_, in_window(window) + " before contacts"); });
     advanced_ = true;
     if (broken_) return motion(at_protocol_positions());
+    // Answered are q^n, at which the fluid solves step 5, and U^{n+4/5}: positions are taken before
+    // the sub-steps, velocities and impulses after them.
     nscd::Bodies sent = at_protocol_positions();
     std::vector<Load> loads;
     for (std::size_t i = 0; i < bodies_.size(); ++i) loads.push_back(load(i, window.step));
@@ -195,6 +202,7 @@ void MdAdapter::book_contacts(const std::vector<Twist>& before, const SubstepRep
     touched_.assign(bodies_.size(), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Vec3 weight{0.0, -bodies_.weight_mass[i] * run_.gravity * dt, 0.0};
+        // cM (U^{n+4/5} - U^n), and the same for the spin
         const Vec3 gained = bodies_.mass[i] * (bodies_.twist[i].velocity - before[i].velocity);
         const Vec3 turned = bodies_.world_inertia(i) * (bodies_.twist[i].spin - before[i].spin);
         const Held& held = held_[i];
@@ -204,8 +212,11 @@ void MdAdapter::book_contacts(const std::vector<Twist>& before, const SubstepRep
         angular = turned - held.angular_impulse;
         const double scale = norm(held.impulse) + norm(weight) + norm(gained) +
                              bodies_.mass[i] * norm(before[i].velocity);
+        // By the balance of momentum in all windows, also where the host has summed the impulses:
+        // which grains are moved with the kick must not depend on whether a window has output.
         touched_[i] = norm(impulse) > round_off * scale;
         if (run.impulses.empty()) continue;
+        // The host's sum has all forces but gravity: less the loads that it was given, J_c remains.
         const Load given = load(i, dt);
         impulse = run.impulses[i] - dt * given.force;
         angular = run.angular_impulses[i] - dt * given.torque;
@@ -247,6 +258,7 @@ void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks)
     const std::vector<Twist> with_contact = bodies_.twist;
     const auto ordered = by_grain(bodies_.id, kicks, "kick", in_window(window));
     take_velocities(bodies_, kicks, in_window(window), run_.dimension);
+    // x^{n+1} = x' + (dt + s)/2 (U^{n+1} - U^{n+4/5}), without contact only.
     const double lag = 0.5 * (window.step + velocity_lag());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Twist& now = bodies_.twist[i];
@@ -256,6 +268,7 @@ void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks)
             bodies_.orientation[i] =
                 rotated(bodies_.orientation[i], lag * (now.spin - with_contact[i].spin));
         }
+        // The multiplier impulse of this window is J_h of the next.
         if (hold_)
             held_[i] = {ordered[i]->multiplier_impulse, ordered[i]->multiplier_angular_impulse};
     }
@@ -263,8 +276,10 @@ void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks)
 }
 
 void MdAdapter::remove_leavers() {
+    // Judged at the positions of the protocol, as the contact engine does.
     const std::vector<std::uint8_t> stays = those_inside(at_protocol_positions(), borders_);
     report_.removed = std::count(stays.begin(), stays.end(), 0);
+    // On several ranks all go on, since what follows is collective.
     if (report_.removed == 0 && !host_.shares_bodies()) return;
     std::vector<Held> kept;
     std::vector<GrainId> gone;
@@ -289,6 +304,7 @@ void MdAdapter::follow_migration(nscd::Bodies* sent) {
         if (sent) nscd::Bodies::for_each_array(*sent, each);
         each(held_);
     };
+    // One row of bytes per body, with all arrays in the same order on both sides.
     visit([&](auto& array) { packer.measure(array); });
     std::vector<char> rows = packer.empty_rows(bodies_.size());
     visit([&](auto& array) { packer.pack(array, rows); });
@@ -305,6 +321,8 @@ nscd::Bodies MdAdapter::at_protocol_positions() const {
 Motion MdAdapter::motion(const nscd::Bodies& bodies) const {
     Motion result{grain_states(bodies), report_};
     for (std::size_t i = 0; i < held_.size(); ++i) {
+        // The fluid subtracts what the grains have felt already: cM (U^{n+1} - U^{n+4/5}) = dt
+        // lambda - J_h.
         result.grains[i].announced_impulse = held_[i].impulse;
         result.grains[i].announced_angular_impulse = held_[i].angular_impulse;
     }

@@ -21,6 +21,8 @@ std::int32_t status_of(const nscd::Contact& contact, const nscd::ContactVector& 
     if (!(solution.n > 0.0)) return status;
     if (nscd::tangential(solution) >= at_limit * contact.friction * solution.n)
         status |= ContactStatus::sliding;
+    // The part that rolling resistance limits; along the normal it is torsion. In the plane the
+    // moment is along e_z, and all of it is rolling.
     const Vec3 across = moment - dot(contact.normal, moment) * contact.normal;
     if (contact.rolling > 0.0 && norm(across) >= at_limit * contact.rolling * solution.n)
         status |= ContactStatus::rolling;
@@ -46,6 +48,7 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
     record.length = point.length;
     record.point = bodies.position[point.b] + point.arm_b;
     record.normal = point.normal;
+    // Both arms end at the same point: x_b - x_a = arm_a - arm_b, of the nearest image.
     record.branch = (point.wall >= 0 ? Vec3{} : point.arm_a) - point.arm_b;
     record.impulse = world_impulse(contact, impulse);
     record.rolling_impulse = world_moment(engine.impulses(), k);

@@ -59,6 +59,8 @@ void take_materials(const Settings& settings, nscd::EngineSettings& result) {
     for (std::size_t i = 1; i < names.size(); ++i)
         result.surfaces.push_back(
             with_group(result.surfaces[0], settings, "contact.materials." + names[i]));
+    // Pairs by the rule of the smaller value; what contact.pairs.A-B names replaces single
+    // coefficients.
     const nscd::SurfaceTable rule(result.surfaces);
     for (std::int32_t a = 0; a < rule.size(); ++a)
         for (std::int32_t b = 0; b < rule.size(); ++b) {
@@ -92,6 +94,7 @@ void take_adhesion(const Settings& settings, nscd::EngineSettings& result) {
     const double diameter = settings.real("run.diameter");
     nscd::LawSettings& laws = result.law_settings;
     laws.reference_diameter = diameter;
+    // In the case lengths are in D, forces in grain weights and speeds in u_c.
     laws.adhesion_range = diameter * settings.real("contact.adhesion_range");
     take(settings, "contact.adhesion_length", diameter, laws.adhesion_length);
     take(settings, "contact.adhesion_shear", 1.0, laws.adhesion_shear);
@@ -105,6 +108,7 @@ void take_film(const Settings& settings, nscd::EngineSettings& result) {
     take(settings, "contact.film", result.law.film);
     if (result.law.film == "none") return;
     nscd::LawSettings& laws = result.law_settings;
+    // eta = rho_f nu
     laws.viscosity = settings.real("run.fluid_density") * settings.real("run.viscosity");
     laws.film_cutoff = settings.real("run.film_cutoff");
     laws.film_roughness = settings.real("run.diameter") * settings.real("contact.film_roughness");

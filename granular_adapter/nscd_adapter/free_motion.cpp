@@ -12,6 +12,8 @@ namespace turbidite {
 namespace {
 
 nscd::PlanarTensor in_plane(const std::array<double, 21>& inertia) {
+    // The effective inertia is a symmetric 6 x 6 matrix over (x, y, z, turn about x, y, z), of
+    // which the upper triangle is sent.
     constexpr std::size_t x = 0, y = 1, spin = 5;  // of the six components
     nscd::PlanarTensor tensor;
     tensor.xx = inertia[upper_entry(x, x)];
@@ -35,6 +37,7 @@ Symmetric3 block(const std::array<double, 21>& inertia, std::size_t first) {
 }
 
 double inverse_mean(const Symmetric3& inertia) {
+    // 1/(tr A/3)
     return 3.0 / (inertia.xx + inertia.yy + inertia.zz);
 }
 
@@ -53,6 +56,7 @@ std::string grain(const nscd::Bodies& bodies, std::size_t i) {
 }
 
 bool motion_is_prescribed(const FreeResponse& response) {
+    // The fluid answers for such a grain with an inertia of zeros.
     return std::all_of(response.inertia.begin(), response.inertia.end(),
                        [](double entry) { return entry == 0.0; });
 }

@@ -85,11 +85,13 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     moved_walls_ = motions_of(settings, "run.wall_motions");
     moved_grains_ = motions_of(settings, "run.grain_motions");
     std::vector<nscd::Wall> walls = walls_of(borders_);
+    // Sides first, then the walls inside the box, whose keys follow theirs.
     for (const nscd::Wall& wall : inner_walls(settings)) walls.push_back(wall);
     engine_ = std::make_unique<nscd::Engine>(engine_settings(settings), shapes, walls);
     if (ranks_) engine().share_with(*ranks_);
     report_ = {};
     agree([&] {
+        // Refused only if no responses come: with them the fluid gives such grains an inertia.
         light_ = first_light_grain(run_, shapes, grains);
         add_grains(bodies(), run_, shapes, grains);
         check_inside(bodies(), borders_, "at the start");
@@ -97,6 +99,7 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     if (broken_) return motion();
     engine().check_periods();
     start_twists_ = bodies().twist;
+    // Velocities at t^n go with the bodies to other ranks, for rounds that begin again there.
     engine().carry(start_twists_);
     report_.max_penetration = engine_->max_penetration();
     report_.wall_seconds = watch.seconds();
@@ -106,7 +109,10 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
 Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse>& responses) {
     const StopWatch watch;
     begin_round();
+    // What can fail on one rank is agreed on before the next call that all ranks make together:
+    // otherwise the others would wait in it for ever.
     agree([&] { check_inside(bodies(), borders_, in_window(window) + " before contacts"); });
+    // After begin_round(), which keeps the velocities at t^n or restores them.
     set_velocities(engine().walls(), moved_walls_, window.time, window.step);
     set_velocities(bodies(), moved_grains_, window.time, window.step);
     const nscd::StepReport step = solve_contacts(window, responses);
@@ -119,6 +125,7 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
 
 // An advance that is repeated before the kick starts at t^n again; the contact impulses are kept.
 void NscdAdapter::begin_round() {
+    // Empty after a kick: then this is the first round of a window.
     const bool again = !contact_twists_.empty() && contact_twists_.size() == bodies().size();
     if (again)
         bodies().twist = start_twists_;
@@ -129,6 +136,7 @@ void NscdAdapter::begin_round() {
 nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
                                              const std::vector<FreeResponse>& responses) {
     FreeMotion free;
+    // A rank without grains gets no responses, but takes part in the same kind of step.
     answered_ = on_any_rank(!responses.empty());
     agree([&] {
         if (!answered_ && light_) refuse_light_grain(*light_);
@@ -137,7 +145,9 @@ nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
                 free_motion(bodies(), responses, in_window(window), engine().settings().dimension);
     });
     if (broken_) return {};
+    // Without responses: free motion under the submerged weight, with the inertia cM of step 4.
     if (!answered_) return engine().step(window.step);
+    // Free velocities and inertia of grain and fluid together, from the responses.
     return engine().step_from(free.velocities, std::move(free.mobilities), window.step);
 }
 
@@ -147,15 +157,22 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
         throw std::logic_error("apply_kick must be preceded by advance in the same window");
     dumps_.after(window, engine().problem());
     agree([&] {
+        // Dry cases have no kicks: the velocities of the contacts are final.
         if (run_.wet || !kicks.empty())
             take_velocities(bodies(), kicks, in_window(window), run_.dimension);
         check_velocities(bodies(), in_window(window) + " after the kick");
     });
     if (broken_) return motion();
     std::optional<std::vector<ContactRecord>> contacts;
+    // Before the move: records need the positions at which contacts were found.
     if (window.write_output) contacts = contact_records(engine());
+    // With the velocities that the fluid has corrected, against the conditions of this window's
+    // contacts.
     report_.contact_violation = engine().contact_violation();
     if (engine().settings().law.film != "none") report_.film_work = engine().film_work();
+    // q^{n+1} = q^n + dt U^{n+4/5} or, where a fluid without responses has corrected the velocities
+    // and the case says so, q^n + dt U^{n+1}. Gaps were closed for U^{n+4/5}: after responses it is
+    // always taken.
     const bool with_contact = answered_ || positions_ == Positions::contact;
     engine().move(window.step, with_contact ? contact_twists_ : bodies().twist);
     if (!moved_walls_.empty()) follow_walls(borders_, engine().walls());
@@ -186,6 +203,7 @@ void NscdAdapter::restore(const SavedState& state) {
 }
 
 void NscdAdapter::restore_from(const std::vector<SavedState>& of_ranks) {
+    // Every rank reads all of them and keeps its even share.
     engine().restore_from(of_ranks);
     const int ranks = ranks_ ? ranks_->size() : 1, own = ranks_ ? ranks_->rank() : 0;
     std::vector<std::uint8_t> mine;
@@ -213,6 +231,7 @@ void NscdAdapter::agree(Check check) {
         failure = std::current_exception();
     }
     broken_ = on_any_rank(failure != nullptr);
+    // The failing rank ends with its own error; the others only know that one of them has failed.
     if (failure) std::rethrow_exception(failure);
 }
 
@@ -246,6 +265,7 @@ void NscdAdapter::remove_leavers() {
     for (std::size_t i = 0; i < all.size(); ++i)
         if (!stays[i]) removed_.push_back(all.id[i]);
     removed_anywhere_ = ranks_ ? nscd::gathered(*ranks_, removed_) : removed_;
+    // On all ranks if on one: keep() also forgets the points of the step, which ranks share.
     if (!removed_anywhere_.empty()) engine().keep(stays);
 }
 

@@ -20,6 +20,7 @@ ProblemDumps::ProblemDumps(const Settings& settings, std::filesystem::path run_f
 }
 
 void ProblemDumps::after(const Window& window, const nscd::ContactProblem& problem) const {
+    // STEP of history.csv counts finished windows; window.index is 0 in the first.
     const std::int64_t step = window.index + 1;
     if (every_ == 0 || step % every_ != 0 || problem.contacts.empty()) return;
     const std::filesystem::path file = folder_ / ("problem_" + std::to_string(step) + ".dat");

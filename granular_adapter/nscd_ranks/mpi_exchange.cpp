@@ -15,6 +15,7 @@ namespace {
 struct Parts {
     explicit Parts(std::vector<int> sizes) : count(std::move(sizes)), first(count.size(), 0) {
         const auto all = std::accumulate(count.begin(), count.end(), std::size_t{0});
+        // Counts and offsets of MPI are of type int.
         if (all > std::numeric_limits<int>::max())
             throw std::length_error(
                 "the grains ranks exchange more than 2 GB at once: use more grains.ranks");
@@ -38,6 +39,7 @@ MpiExchange::MpiExchange(MPI_Comm communicator, Way way) {
     PMPI_Comm_dup(communicator, &communicator_);
     PMPI_Comm_rank(communicator_, &rank_);
     PMPI_Comm_size(communicator_, &size_);
+    // Chosen once for the run, and the same on all ranks.
     if (way == Way::shared_memory_if_possible && on_one_node())
         phases_ = std::make_unique<PhaseWindow>(communicator_);
     else
@@ -58,6 +60,7 @@ bool MpiExchange::on_one_node() const {
     PMPI_Comm_size(node, &together);
     PMPI_Comm_free(&node);
     int least = together;
+    // All ranks must choose the same way, so they agree on the smallest number.
     PMPI_Allreduce(&together, &least, 1, MPI_INT, MPI_MIN, communicator_);
     return least == size_;
 }
@@ -80,6 +83,7 @@ std::vector<RankExchange::Bytes> MpiExchange::swap(std::vector<Bytes> given) {
         sizes.push_back(static_cast<int>(part.size()));
         sent.insert(sent.end(), part.begin(), part.end());
     }
+    // Sizes travel first: no rank knows what others will send.
     std::vector<int> coming(sizes.size());
     PMPI_Alltoall(sizes.data(), 1, MPI_INT, coming.data(), 1, MPI_INT, communicator_);
     const Parts out(std::move(sizes)), in(std::move(coming));

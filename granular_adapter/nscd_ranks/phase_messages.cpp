@@ -19,18 +19,21 @@ void PhaseMessages::prepare(const std::vector<Traffic>& phases) {
     release();
     for (const Traffic& traffic : phases) {
         Phase& phase = phases_.emplace_back();
+        // A tag per phase: a rank that is ahead may have sent the next phase already.
         const int tag = static_cast<int>(phases_.size());
         for (const std::size_t count : traffic.sent) phase.sent.emplace_back(count);
         for (const std::size_t count : traffic.received) phase.received.emplace_back(count);
         const auto add = [&](ByRank& buffers, const auto& init) {
             for (std::size_t rank = 0; rank < buffers.size(); ++rank) {
                 std::vector<double>& buffer = buffers[rank];
+                // Both sides know the sizes, so that neither expects an empty message.
                 if (buffer.empty()) continue;
                 init(buffer.data(), static_cast<int>(buffer.size()), MPI_DOUBLE,
                      static_cast<int>(rank), tag, communicator_,
                      &phase.requests.emplace_back(MPI_REQUEST_NULL));
             }
         };
+        // Receives first: they are started before the sends.
         add(phase.received, PMPI_Recv_init);
         add(phase.sent, PMPI_Send_init);
     }

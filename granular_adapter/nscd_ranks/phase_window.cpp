@@ -28,6 +28,7 @@ std::atomic_ref<std::uint64_t> count_in(double* part) {
 }
 
 void wait_for(double* part, std::uint64_t count) {
+    // Acquires what the partner wrote before it released its count in post().
     for (int turn = 0; count_in(part).load(std::memory_order_acquire) < count; ++turn)
         if (turn < hot_turns)
             pause_briefly();
@@ -66,6 +67,7 @@ void PhaseWindow::allocate(std::size_t doubles) {
     double* own = nullptr;
     MPI_Errhandler usual = MPI_ERRHANDLER_NULL;
     PMPI_Comm_get_errhandler(communicator_, &usual);
+    // A failure is to end with a message of our own instead of in MPI's usual handler.
     PMPI_Comm_set_errhandler(communicator_, MPI_ERRORS_RETURN);
     const int made = PMPI_Win_allocate_shared(static_cast<MPI_Aint>(doubles * sizeof(double)),
                                               sizeof(double), apart, communicator_, &own, &window_);
@@ -74,6 +76,7 @@ void PhaseWindow::allocate(std::size_t doubles) {
     PMPI_Info_free(&apart);
     if (made != MPI_SUCCESS)
         throw std::runtime_error("MPI could not allocate shared memory for the grains ranks");
+    // One epoch for the life of the window: ranks synchronise by their counts, not by MPI.
     PMPI_Win_lock_all(MPI_MODE_NOCHECK, window_);
     parts_.resize(static_cast<std::size_t>(ranks_));
     for (int rank = 0; rank < ranks_; ++rank) {
@@ -91,11 +94,13 @@ void PhaseWindow::prepare(const std::vector<Traffic>& phases) {
     // By receiver, its offsets of all phases: what it needs to know lies together.
     std::vector<unsigned long long> told(phases.size() * ranks), got(told.size());
     sent_at_.assign(phases.size() * ranks, 0), received_at_ = sent_at_;
+    // The first line of each part is its count of phases.
     unsigned long long end = line;
     std::vector<char> meets(ranks, 0);
     for (std::size_t phase = 0; phase < phases.size(); ++phase)
         for (std::size_t rank = 0; rank < ranks; ++rank) {
             sent_at_[phase * ranks + rank] = told[rank * phases.size() + phase] = end;
+            // Whole lines of the cache, so that no two ranks read and write parts of the same line.
             end += whole_lines(phases[phase].sent[rank]);
             if (phases[phase].sent[rank] + phases[phase].received[rank] > 0) meets[rank] = 1;
         }
@@ -108,8 +113,12 @@ void PhaseWindow::prepare(const std::vector<Traffic>& phases) {
     for (std::size_t phase = 0; phase < phases.size(); ++phase)
         for (std::size_t rank = 0; rank < ranks; ++rank)
             received_at_[phase * ranks + rank] = got[rank * phases.size() + phase];
+    // All ranks must allocate together, so the largest need decides; half as much again, so that it
+    // does not happen in every step.
     PMPI_Allreduce(MPI_IN_PLACE, &end, 1, MPI_UNSIGNED_LONG_LONG, MPI_MAX, communicator_);
     if (end > capacity_) allocate(whole_lines(end + end / 2));
+    // Nobody writes to its new places before everybody has read the last phase and, after
+    // allocate(), has its count at zero.
     PMPI_Barrier(communicator_);
 }
 
@@ -118,6 +127,8 @@ double* PhaseWindow::outgoing(std::size_t phase, int to) {
 }
 
 void PhaseWindow::post(std::size_t) {
+    // Every rank posts every phase, also with nothing to send, so that all counts mean the same
+    // phase.
     count_in(parts_[static_cast<std::size_t>(rank_)]).store(++count_, std::memory_order_release);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// turbidite-grains-md RUN: molecular dynamics of discs and polygons as a participant without a host
-// code.
+// turbidite-grains-md RUN: molecular dynamics of discs, polygons and spheres as a participant
+// without a host code.
 #include <cstdio>
 
 #include "coupler/participant/participant.hpp"

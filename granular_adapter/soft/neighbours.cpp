@@ -30,6 +30,7 @@ const std::vector<Near>& Neighbours::of(const nscd::Bodies& bodies,
 
 bool Neighbours::complete(const std::vector<Vec3>& positions) const {
     if (places_.size() != positions.size()) return false;
+    // (skin/2)^2: two grains that have both moved by half the skin are nearer by the skin at most.
     const double limit = 0.25 * skin_ * skin_;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const Vec3 moved = box_.minimum_image(positions[i] - places_[i]);

@@ -40,9 +40,11 @@ bool OverlapFinder::has_corners(const nscd::Bodies& bodies, std::int32_t body) c
 
 double OverlapFinder::mass_of_point(const nscd::Bodies& bodies, const Near& near) const {
     const double b = bodies.mass[near.b];
+    // m_r = m_a m_b/(m_a + m_b), at a wall m_b
     const double reduced = near.wall < 0 ? bodies.mass[near.a] * b / (bodies.mass[near.a] + b) : b;
     const bool sides =
         has_corners(bodies, near.b) && (near.wall >= 0 || has_corners(bodies, near.a));
+    // Two points of a side together have the spring of a contact of discs; a single one half of it.
     return sides ? 0.5 * reduced : reduced;
 }
 

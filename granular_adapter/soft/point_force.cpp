@@ -25,6 +25,8 @@ struct Pressed {
 Pressed pressed(const SoftLaw& law, const Overlap& overlap, const Vec3& velocity) {
     const double spring = overlap.mass * law.frequency * law.frequency;
     const double dashpot = 2.0 * law.damping * overlap.mass * law.frequency;
+    // v_n, negative while the surfaces approach. N = max(0, k g - c v_n) with the overlap g = -gap:
+    // the dashpot does not pull.
     const double closing = dot(velocity, overlap.point.normal);
     return {spring, dashpot, std::max(0.0, -spring * overlap.point.gap - dashpot * closing)};
 }
@@ -36,9 +38,11 @@ PointForce force_in_plane(const SoftLaw& law, const Overlap& overlap, const Vec3
     const auto [spring, dashpot, push] = pressed(law, overlap, velocity);
     const double along = dot(velocity, tangent);
     slip += step * along;
+    // T = -a (k s + c v_t)
     const double wanted = -law.tangential_share * (spring * slip + dashpot * along);
     const double limit = law.friction * push;
     if (std::abs(wanted) < limit) return {push * normal + wanted * tangent, push > 0.0, false};
+    // Slides: |T| = mu N, and the spring is as long as that needs, s = -(T/a + c v_t)/k.
     const double friction = std::copysign(limit, wanted);
     slip = -(friction / law.tangential_share + dashpot * along) / spring;  // T(slip) = friction
     return {push * normal + friction * tangent, push > 0.0, push > 0.0};
@@ -58,6 +62,7 @@ PointForce force_in_space(const SoftLaw& law, const Overlap& overlap, const Vec3
     const auto [spring, dashpot, push] = pressed(law, overlap, velocity);
     const Vec3 along = velocity - dot(velocity, normal) * normal;
     slip = turned_into_plane(slip, normal) + step * along;
+    // T = -a (k s + c v_t), all of them vectors in the tangent plane
     const Vec3 wanted = -law.tangential_share * (spring * slip + dashpot * along);
     const double limit = law.friction * push, size = norm(wanted);
     if (size < limit) return {push * normal + wanted, push > 0.0, false};

@@ -66,6 +66,7 @@ SubstepReport SoftMdHost::run(const Substeps& substeps, const std::vector<Load>&
     report.impulses.assign(bodies_.size(), Vec3{});
     report.angular_impulses.assign(bodies_.size(), Vec3{});
     for (std::int64_t k = 1; k <= substeps.count; ++k) {
+        // Forces, reports and impulses belong to the positions at the start of the sub-step.
         find_forces(loads, substeps.step);
         watch(report);
         add_impulses(report, substeps.step);
@@ -79,6 +80,7 @@ SubstepReport SoftMdHost::run(const Substeps& substeps, const std::vector<Load>&
 void SoftMdHost::find_forces(const std::vector<Load>& loads, double step) {
     finder_->find(bodies_);
     const std::vector<Overlap>& overlaps = finder_->overlaps();
+    // Springs of points that are no longer there are forgotten, new ones begin unstretched.
     slips_.follow(overlaps);
     totals_ = loads;
     forces_.clear();
@@ -91,17 +93,22 @@ void SoftMdHost::find_forces(const std::vector<Load>& loads, double step) {
 }
 
 void SoftMdHost::move(double step) {
+    // The same gravity for all bodies; what the weight of a body in the fluid differs by is in its
+    // load.
     const Vec3 fall{0.0, -gravity_, 0.0};
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         Twist& twist = bodies_.twist[i];
+        // v <- v + delta (F/m + g)
         twist.velocity =
             twist.velocity + step * (bodies_.inverse_mass(i) * totals_[i].force + fall);
         twist.spin = twist.spin + step * (bodies_.inverse_inertia(i) * totals_[i].torque);
     }
+    // Leap-frog: x <- x + delta v with the new velocity.
     nscd::move(bodies_, bodies_.twist, step, box_);
 }
 
 void SoftMdHost::watch(SubstepReport& report) const {
+    // Overwritten in each sub-step: the contacts of the last one.
     report.contacts = std::count_if(forces_.begin(), forces_.end(),
                                     [](const PointForce& force) { return force.pushes; });
     for (const Overlap& overlap : finder_->overlaps())

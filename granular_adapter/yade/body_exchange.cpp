@@ -45,6 +45,7 @@ void BodyExchange::read(nscd::Bodies& bodies) const {
 void BodyExchange::write(const nscd::Bodies& bodies) {
     written_.clear();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
+        // Kept as written, to tell later what others have changed.
         written_.push_back({bodies.position[i], yade_orientation(bodies.orientation[i], turn(i)),
                             bodies.twist[i]});
         states_.write(i, written_.back());

@@ -48,6 +48,8 @@ std::unique_ptr<nscd::Engine> ContactHost::new_engine(Layout& layout) const {
 
 void ContactHost::lay_out(Layout layout) {
     auto next = new_engine(layout);
+    // The memory that a script has restored, otherwise that of the scene before. Contacts of the
+    // plane and of space are remembered in different forms.
     if (!given_memory_.empty())
         restore_contact_memory(*next, std::exchange(given_memory_, {}));
     else if (engine_ && engine_->settings().dimension == layout.dimension)
@@ -66,6 +68,7 @@ nscd::StepReport ContactHost::step(double dt, const Loads& loads) {
     read_bodies();
     take_loads(loads);
     check_bodies("before the step");
+    // Contact points are reported where they were found, before the move.
     solved_positions_ = engine_->bodies().position;
     const nscd::StepReport report = engine_->step(dt);
     engine_->move(dt);
@@ -128,6 +131,7 @@ void ContactHost::read_bodies() {
         bodies.orientation[i] = outline_orientation(motion.orientation, turns_[i]);
         bodies.twist[i] = motion.twist;
         if (in_space()) continue;
+        // The plane of the engine is z = 0; each body keeps its own height in YADE.
         heights_[i] = std::exchange(bodies.position[i][2], 0.0);
         bodies.twist[i] = in_plane(motion.twist);
     }
@@ -148,6 +152,7 @@ void ContactHost::check_bodies(const char* when) const {
             throw at_fault(bodies.id[i], " has a position or velocity that is not finite", when);
         if (bodies.fixed[i]) continue;
         for (const nscd::Wall& wall : std::as_const(*engine_).walls())
+            // Plates hold bodies on both sides: nothing is behind them.
             if (!has_ends(wall) && signed_distance(wall, bodies.position[i]) < 0.0)
                 throw at_fault(bodies.id[i],
                                " has its centre behind wall " + std::to_string(wall.key), when);

@@ -18,6 +18,7 @@ std::vector<nscd::Wall> HostedWalls::read(int dimension) const {
             continue;
         }
         wall.pivot = {motion.position[0], motion.position[1], 0.0};
+        // The stored point and normal are in the axes of the body: both turn with it.
         wall.point = wall.pivot + turned_in_plane(motion.orientation, local_[i].point);
         wall.normal = turned_in_plane(motion.orientation, local_[i].normal);
         wall.twist = in_plane(motion.twist);

@@ -45,6 +45,7 @@ bool probe() {
     const python::object state = python::import("yade.wrapper").attr("State")();
     const StatePlaces places = places_of(state);
     if (!places.velocity || !places.spin || !places.inertia) return false;
+    // Both ways and with two sets of numbers, so that no value agrees by chance.
     return attributes_arrive(state, places, 1.0) && attributes_arrive(state, places, -1.0) &&
            places_arrive(state, places, 1.0) && places_arrive(state, places, -1.0);
 }

@@ -23,6 +23,7 @@ Quaternion in_plane(const Quaternion& q) {
 
 Quaternion outline_orientation(const Quaternion& yade, const Turn& turn) {
     if (!turn.planar) return yade;
+    // outline = yade * rotation^-1, the inverse of the function below
     return in_plane(is_identity(turn.rotation) ? yade : product(yade, conjugate(turn.rotation)));
 }
 
@@ -31,6 +32,7 @@ Quaternion yade_orientation(const Quaternion& outline, const Turn& turn) {
 }
 
 Vec3 turned_in_plane(const Quaternion& q, const Vec3& v) {
+    // (w, 0, 0, z) of length 1: cosine w^2 - z^2, sine 2 w z
     const double c = q[0] * q[0] - q[3] * q[3], s = 2.0 * q[0] * q[3];
     return {c * v[0] - s * v[1], s * v[0] + c * v[1], 0.0};
 }

@@ -65,6 +65,7 @@ void demand_all_sides(std::size_t created, const std::vector<nscd::Wall>& walls)
 /// Motion of a plate whose reference position is along x.
 BodyMotion plate_motion(const nscd::Wall& wall) {
     return {wall.point,
+            // n = (-sin a, cos a) for a plate that is turned by a from the x axis.
             about_z(std::atan2(-wall.normal[0], wall.normal[1])),
             {velocity_at(wall, wall.point), wall.twist.spin}};
 }
@@ -100,6 +101,7 @@ Motion YadeAdapter::initialise(const Settings& settings, const ShapeTable& shape
 
 void YadeAdapter::begin_window(const Window& window) {
     const nscd::Bodies& bodies = std::as_const(engine_).bodies();
+    // Compared before reading: what a script has moved since the last window.
     const auto moved = exchange_.moved();
     const python::object grain = moved ? python::object(bodies.id[*moved]) : python::object();
     scene_.attr("begin_window")(window.index, grain);
@@ -119,6 +121,7 @@ Motion YadeAdapter::advance(const Window& window, const std::vector<FreeResponse
     const auto start = Clock::now();
     begin_window(window);
     exchange_.read(engine_.bodies());
+    // Reading YADE's bodies is work of the grains program as well.
     const double reading = seconds_since(start);
     Motion motion = engine_.advance(window, responses);
     motion.report.wall_seconds += reading;
@@ -141,6 +144,7 @@ void YadeAdapter::erase_leavers(const std::vector<GrainId>& before) {
     std::vector<std::uint8_t> mask;
     for (const GrainId id : before)
         mask.push_back(std::find(gone.begin(), gone.end(), id) == gone.end());
+    // Before the scene erases them: states of erased bodies must not be written any more.
     exchange_.keep(mask);
     python::list ids;
     for (const GrainId id : gone) ids.append(id);

@@ -70,6 +70,7 @@ void YadeMdHost::write(const nscd::Bodies& bodies) {
 
 /// YADE keeps loads until they are set again.
 void YadeMdHost::set_loads(const std::vector<Load>& loads) {
+    // Loads of zero are set once, to replace those of an earlier window, and then left alone.
     const bool any = !std::all_of(loads.begin(), loads.end(), is_zero);
     if (!any && !loaded_) return;
     const Forces forces(scene_.attr("forces")());
@@ -92,6 +93,7 @@ double YadeMdHost::deepest_overlap() const {
         const Vec3 place = exchange_.position(i);
         for (const Border& border : borders_)
             if (border.side == BorderKind::wall)
+                // scene.deepest_overlap() knows pairs of grains only.
                 deepest = std::max(deepest, radii_[i] - signed_distance(border.plane, place));
     }
     return deepest;
@@ -109,6 +111,7 @@ SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>&
     for (std::int64_t i = 1; i <= substeps.count; ++i) {
         step();
         if (substeps.detailed) add_forces(report, substeps.step);
+        // Looking at all overlaps takes time: some times per contact time, and at the end.
         if (i % stride_ == 0 || i == substeps.count)
             report.max_penetration = std::max(report.max_penetration, deepest_overlap());
     }
@@ -118,8 +121,8 @@ SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>&
     return report;
 }
 
-/// YADE's contacts: (body, grain or wall; body, grain; sliding; overlap, point, normal, force on
-/// the second body).
+/// Entries of scene.touching() (md_scene.py): side of the domain or -1, a, b, sliding, overlap,
+/// then three numbers each: point, normal, force on b, branch.
 std::vector<ContactRecord> YadeMdHost::touching(double window) const {
     const python::object list = scene_.attr("touching")();
     std::vector<ContactRecord> records;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// YADE's own engines as a host of molecular dynamics: spheres with the mass and inertia of discs,
-// restricted to the plane, ViscElMat contacts (linear spring and dashpot, no attraction, Coulomb
-// friction), NewtonIntegrator without numerical damping. The Python object `scene` (md_scene.py)
-// contains them; forces and motions are read here.
+// YADE's own engines as a host of molecular dynamics: spheres, in the plane with the mass and
+// inertia of discs and restricted to it, ViscElMat contacts (linear spring and dashpot, no
+// attraction, Coulomb friction), NewtonIntegrator without numerical damping. The Python object
+// `scene` (md_scene.py) contains them; forces and motions are read here.
 #pragma once
 
 #include <boost/python/object.hpp>

@@ -15,6 +15,7 @@ constexpr std::size_t parities = 9;  // with the class of large bodies
 CellOrder::CellOrder(const CellScene& scene)
     : CellOrder(scene, ParityGrid(cell_sizes(scene.bodies, scene.box), scene.box, scene.reach,
                                   scene.share)) {
+    // One rank: a single phase, in the order of the places of the cells.
     by_parity_ = false;
     phases_.resize(1);
 }
@@ -31,6 +32,7 @@ bool CellOrder::is_large(std::int32_t body) const {
 }
 
 CellOrder::Cell CellOrder::cell(const ContactPoint& point) const {
+    // A large body touches more than its neighbouring cells: its contacts belong to none.
     if (is_large(point.a) || is_large(point.b)) return {0, 0, 0, true};
     const std::int32_t owner = point.a >= 0 ? point.a : point.b;  // a has the lower id
     return grid_.cell(scene_.bodies.position[static_cast<std::size_t>(owner)]);
@@ -39,6 +41,7 @@ CellOrder::Cell CellOrder::cell(const ContactPoint& point) const {
 double CellOrder::layer(const ContactPoint& point) const {
     if (!layered_) return 0.0;
     const Vec3& centre = scene_.bodies.position[static_cast<std::size_t>(point.b)];
+    // Depth of the point along gravity, in bands; from b, since a may be a wall.
     return std::floor((dot(down_, centre) + dot(down_, point.arm_b)) / scene_.band);
 }
 
@@ -46,6 +49,7 @@ void CellOrder::add(const ContactPoint& point) {
     const auto id = [this](std::int32_t body) {
         return scene_.bodies.id[static_cast<std::size_t>(body)];
     };
+    // Keys of walls may equal ids of bodies: `wall` tells them apart.
     const GrainId first =
         point.wall < 0 ? id(point.a) : scene_.walls[static_cast<std::size_t>(point.wall)].key;
     const Cell own = cell(point);
@@ -56,11 +60,13 @@ void CellOrder::add(const ContactPoint& point) {
 
 void CellOrder::take_phase(std::vector<Place>& places, std::vector<std::int32_t>& order) {
     std::sort(places.begin(), places.end(), [](const Place& p, const Place& q) {
+        // Ids before places in storage: no two points are equal, so the sort has one result.
         return std::tie(p.cell, p.layer, p.wall, p.first, p.second, p.feature) <
                std::tie(q.cell, q.layer, q.wall, q.first, q.second, q.feature);
     });
     for (std::size_t i = 0; i < places.size(); ++i) {
         order.push_back(places[i].point);
+        // The cell ends where the next contact is of another one.
         if (i + 1 < places.size() && places[i + 1].cell == places[i].cell) continue;
         cells_.place.push_back(places[i].cell);
         cells_.end.push_back(static_cast<std::int32_t>(order.size()));

@@ -14,6 +14,7 @@ constexpr double edge_over_distance = 5.0;
 // Radius over the median from which a body is large.
 constexpr double large_over_median = 4.0;
 
+// Indices are below 2^20, but the place of the last one (place_along) is 2^20.
 constexpr int axis_bits = 21;  // three axes in 63 bits
 constexpr std::int64_t cells_per_axis = std::int64_t{1} << 20;
 
@@ -25,6 +26,8 @@ constexpr double largest_index = 5e5;
 constexpr double margin = 1.001;
 
 double median(std::vector<double> values) {
+    // Of an even number of values the upper one of the two in the middle: a value that occurs,
+    // which does not depend on the order of the bodies.
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
@@ -39,6 +42,8 @@ std::uint64_t place_along(std::uint64_t i) {
 std::int64_t even_count(double length, double edge) {
     const auto count = static_cast<std::int64_t>(
         std::min(std::floor(length / edge), static_cast<double>(cells_per_axis)));
+    // Along a periodic axis the first and the last cell are neighbours: only with an even number do
+    // they have different parities. A single cell has no neighbour.
     return std::max<std::int64_t>(count - count % 2, 1);
 }
 
@@ -77,6 +82,8 @@ std::uint64_t ParityGrid::Cell::place() const {
 
 std::uint64_t ParityGrid::Axis::index(double x) const {
     const auto i = static_cast<std::int64_t>(std::floor((x - lower) / edge));
+    // Without an end, indices begin in the middle of their range, so that they are positive on both
+    // sides of `lower`. The middle is even: parities are the same as counted from `lower`.
     const std::int64_t first = count > 0 ? 0 : cells_per_axis / 2;
     const std::int64_t last = (count > 0 ? count : cells_per_axis) - 1;
     return static_cast<std::uint64_t>(std::clamp<std::int64_t>(i + first, 0, last));

@@ -26,6 +26,7 @@ struct Axis {
         return static_cast<std::int64_t>(std::floor((x - origin) / cell));
     }
 
+    // x may lie outside a periodic axis, and by rounding beyond either end of the others.
     std::int64_t index(double x) const {
         const std::int64_t i = raw(x);
         return repeats ? ((i % n) + n) % n : std::clamp<std::int64_t>(i, 0, n - 1);
@@ -36,6 +37,7 @@ struct Axis {
     std::int64_t wrapped(std::int64_t i) const { return i < n ? i : i - n; }
 
     CellRange range(double low, double high) const {
+        // Cells that [low, high] touches, each at most once.
         const std::int64_t first = raw(low), last = raw(high);
         if (repeats) {
             if (last - first + 1 >= n) return {0, n};
@@ -52,9 +54,11 @@ Axis make_axis(double low, double high, double cell, bool repeats) {
     Axis axis{low, cell, 1, repeats};
     const double ratio = std::floor((high - low) / cell);
     // More cells than this are never useful, and the cast below must not overflow.
+    // Cells of a periodic axis share its length; elsewhere the last one holds `high`, hence + 1.
     const double cells = std::clamp(repeats ? ratio : ratio + 1.0, 1.0, 1e6);
     axis.n = static_cast<std::int64_t>(cells);
     if (repeats) axis.cell = (high - low) / cells;
+    // Fewer and wider cells, with `high` still in the last one.
     if (!repeats && ratio + 1.0 > cells) axis.cell = (high - low) / (cells - 1.0);
     return axis;
 }
@@ -108,6 +112,8 @@ void Level::lay_axes(const std::vector<Vec3>& x, double cell, const PeriodicBox&
 }
 
 void Level::sort_members(const std::vector<Vec3>& x) {
+    // Sorting by counting: start_[c] is the number of members in cells before c. Members of a cell
+    // keep their order, so that the order of the pairs depends only on the input.
     start_.assign(static_cast<std::size_t>(axes_[0].n * axes_[1].n * axes_[2].n) + 1, 0);
     for (const std::int32_t i : members_) ++start_[cell_of(x[i]) + 1];
     for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
@@ -124,6 +130,7 @@ void Level::near(const Vec3& x, double reach, Visit&& visit) const {
     std::array<CellRange, 3> range;
     for (int axis = 0; axis < 3; ++axis)
         range[axis] = axes_[axis].range(x[axis] - reach, x[axis] + reach);
+    // Along x a row may run over the end of a periodic axis: it continues in the first cells.
     const std::int64_t end = range[0].first + range[0].count;
     const std::int64_t inside = std::min(end, axes_[0].n), wrapped = end - inside;
     const auto row = [&](std::int64_t first, std::int64_t last) {
@@ -160,6 +167,7 @@ std::map<int, SizedLevel> build_levels(const std::vector<Vec3>& x, const std::ve
     for (auto& [level, list] : members) {
         double top = 0.0;
         for (const std::int32_t i : list) top = std::max(top, radii[i]);
+        // The largest pair distance within the level, 2 r_top + alert, is the edge of its cells.
         levels.emplace(level, SizedLevel{top, Level(std::move(list), x, 2.0 * top + alert, box)});
     }
     return levels;
@@ -179,6 +187,8 @@ std::vector<Pair> candidate_pairs(const std::vector<Vec3>& x, const std::vector<
             if (level > own) break;  // smaller bodies search for this one
             sized.grid.near(x[i], radii[i] + sized.largest + alert,
                             [&](std::int32_t j, const Vec3& place) {
+                                // Within a level both bodies find the pair. Between levels only the
+                                // smaller one searches.
                                 if (level == own && j <= i) return;
                                 const Vec3 d = box.minimum_image(place - x[i]);
                                 const double reach = radii[i] + radii[j] + alert;
@@ -191,6 +201,8 @@ std::vector<Pair> candidate_pairs(const std::vector<Vec3>& x, const std::vector<
 }
 
 void check_periods(const std::vector<double>& radii, const PeriodicBox& box) {
+    // The two largest radii, r_1 >= r_2. Their bodies touch on both sides where d <= r_1 + r_2 and
+    // L - d <= r_1 + r_2, that is only if L <= 2 (r_1 + r_2).
     double first = 0.0, second = 0.0;
     for (const double radius : radii) {
         second = std::max(second, std::min(first, radius));

@@ -25,6 +25,7 @@ void sort_by_layer(std::vector<Place>& places) {
     const auto above = [](const Place& x, const Place& y) { return x.layer < y.layer; };
     const auto [top, bottom] = std::minmax_element(places.begin(), places.end(), above);
     const double first = top->layer, count = bottom->layer - first + 1.0;
+    // A few bodies far apart would need an array of empty layers.
     if (!(count <= countable_layers * static_cast<double>(places.size())))
         return std::stable_sort(places.begin(), places.end(), above);
     std::vector<std::int32_t> next(static_cast<std::size_t>(count) + 1, 0);
@@ -52,6 +53,7 @@ std::vector<std::uint8_t> colour(const std::vector<Place>& places, std::size_t b
     for (const Place& place : places) {
         std::uint64_t taken = 0;
         for (const std::int32_t body : {place.a, place.b})
+            // Walls (-1) are no shared bodies: each contact has a copy of its own.
             if (body >= 0 && used[static_cast<std::size_t>(body)].layer == place.layer)
                 taken |= used[static_cast<std::size_t>(body)].colours;
         const int free = std::min(std::countr_one(taken), colours - 1);
@@ -92,6 +94,7 @@ void TopDownOrder::add(const ContactPoint& point) {
     double layer = 0.0;
     if (sorts_) {
         const Vec3& centre = bodies_.position[static_cast<std::size_t>(point.b)];
+        // Depth of the point along gravity, in bands; from b, since a may be a wall.
         layer = std::floor((dot(down_, centre) + dot(down_, point.arm_b)) / band_);
     }
     places_.push_back({layer, index, point.a, point.b});

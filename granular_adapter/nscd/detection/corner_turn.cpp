@@ -23,15 +23,19 @@ class Shortfall {
     double operator()(std::size_t k) const {
         const ContactPoint& p = step_.points[k];
         if (p.turns_with == 0) return 0.0;
+        // As in the header, O (`owner`) has the side and I is the other; n points from O to I.
         const bool on_a = p.turns_with == 1;
         const Partner a = partner_a(p), b = partner_b(p);
         const Partner &owner = on_a ? a : b, &other = on_a ? b : a;
         const Vec3 normal = on_a ? p.normal : -1.0 * p.normal, turned = owner.turn(normal);
+        // D' = g n + dt (v_I - v_O) + (R_I - 1) s_I - (R_O - 1) s_O
         Vec3 apart =
             p.gap * normal + other.shift - owner.shift - (owner.turn(owner.arm) - owner.arm);
-        // The surface point of a disc is always the one that faces the side.
+        // The surface point of a disc is always the one that faces the side: s_I = -|s_I| n before
+        // the step and -|s_I| n' after it, however the disc itself turns.
         apart = apart + (other.round ? norm(other.arm) * (normal - turned)
                                      : other.turn(other.arm) - other.arm);
+        // g + dt u_n - n' . D'
         return foreseen(k) - dot(turned, apart);
     }
 
@@ -40,6 +44,8 @@ class Shortfall {
     double foreseen(std::size_t k) const {
         const ContactPoint& p = step_.points[k];
         const Contact& contact = step_.contacts[k];
+        // The velocity of bodies only: the problem has the motion of walls in its bias, which is
+        // not read here since it also contains the law's b_n and the shortfalls of earlier rounds.
         double speed = contact_velocity(contact, step_.velocities).n;
         if (p.wall >= 0)
             speed -= dot(p.normal, velocity_at(wall(p), step_.bodies.position[p.b] + p.arm_b));
@@ -56,6 +62,8 @@ class Shortfall {
 
     // Contact points lie half-way across the gap; at walls on the surface of the body.
     Partner partner_a(const ContactPoint& p) const {
+        // The surface of the wall is at x_b + arm_b - g n. A wall moves and turns about its pivot,
+        // which stands for the centre of a body.
         if (p.wall >= 0) {
             const Vec3 place = step_.bodies.position[p.b] + p.arm_b - p.gap * p.normal;
             return {step_.dt * wall(p).twist, place - wall(p).pivot, false};

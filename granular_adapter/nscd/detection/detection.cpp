@@ -24,6 +24,8 @@ double deepest(const std::vector<ContactPoint>& points) {
 void Detection::add_pair(const Bodies& bodies, Pair pair, double alert, const PlacedShapes& placed,
                          std::vector<ContactPoint>& points) const {
     if (bodies.fixed[pair.a] && bodies.fixed[pair.b]) return;
+    // a is the body with the smaller id (contact_point.hpp), however the host stores them: keys of
+    // the contact memory and names of features rely on it.
     if (bodies.id[pair.a] > bodies.id[pair.b]) std::swap(pair.a, pair.b);
     const Vec3 offset = box_.minimum_image(bodies.position[pair.b] - bodies.position[pair.a]);
     narrow_.pair({bodies, pair.a, pair.b, offset, alert, &placed}, points);
@@ -44,6 +46,8 @@ struct Detection::Look {
 
 void Detection::add(const Look& look, const Near& near, std::vector<ContactPoint>& points) const {
     const std::vector<double>& radius = look.bodies.radius;
+    // Alert distance of the pair, reach + share (r_a + r_b) [m]. A share of the largest radius
+    // instead would put every pair of a fine fraction into the problem.
     if (near.wall < 0)
         return add_pair(look.bodies, {near.a, near.b},
                         look.reach + look.share * (radius[near.a] + radius[near.b]), look.placed,
@@ -55,10 +59,13 @@ void Detection::add(const Look& look, const Near& near, std::vector<ContactPoint
 
 template <class Visit>
 void Detection::each_near(const Look& look, const Visit& visit) const {
+    // With radii (1 + share) r, two bodies closer than `reach` have |d| < (1 + share)(r_a + r_b) +
+    // reach: a gap below the alert distance of the pair.
     std::vector<double> wide = look.bodies.radius;
     for (double& radius : wide) radius *= 1.0 + look.share;
     for (const Pair& pair : candidate_pairs(look.bodies.position, wide, look.reach, box_))
         visit(Near{pair.a, pair.b, -1});
+    // Walls are few: each is tested with every body.
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(look.bodies.size()); ++i)
         for (std::int32_t w = 0; w < static_cast<std::int32_t>(look.walls.size()); ++w)
             if (!look.bodies.fixed[i]) visit(Near{-1, i, w});
@@ -95,6 +102,8 @@ std::vector<ContactPoint> Detection::in_order(const Look& look, Order& order,
     points.reserve(found.size());
     for (const std::int32_t i : order.take()) {
         const auto& [near, point, of] = found[static_cast<std::size_t>(i)];
+        // The bodies have not moved since: the same points with the same numbers, in the same order
+        // within the pair.
         if (of == 1) {
             add(look, near, points);
             continue;
@@ -126,6 +135,7 @@ OrderedPoints Detection::ordered_points(const Search& search) const {
         TopDownOrder order(bodies, gravity, band);
         return {in_order(look, order, all), {}, {}};
     }
+    // Points of polygons cost more to find again than to move.
     std::vector<ContactPoint> points = unordered(look);
     order_top_down(points, bodies, gravity, band);
     return {std::move(points), {}, {}};
@@ -136,10 +146,14 @@ OrderedPoints Detection::ordered_points(const Search& search, const ParityGrid& 
     const Bodies& bodies = search.bodies;
     const Look look{bodies, search.walls, search.reach, search.share,
                     narrow_.place(bodies, search.walls)};
+    // The smallest radius of all ranks: layers must not depend on which bodies this rank has.
     const double band = one_height * grid.sizes().smallest;
     CellOrder order({bodies, search.walls, box_, search.gravity, search.reach, search.share, band},
                     grid);
     const auto is_large = [&](std::int32_t body) { return grid.is_large(bodies.radius[body]); };
+    // The owner of the body with the lower id finds the contact, at a wall the owner of the body;
+    // so no two ranks do. Contacts of large bodies are of the first rank, whoever owns the other
+    // body; only that rank has large bodies.
     const auto wanted = [&](const Near& near) {
         if (near.wall >= 0) return static_cast<std::size_t>(near.b) < own;
         const std::int32_t lower = bodies.id[near.a] < bodies.id[near.b] ? near.a : near.b;
@@ -150,6 +164,7 @@ OrderedPoints Detection::ordered_points(const Search& search, const ParityGrid& 
 }
 
 double Detection::deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls) const {
+    // With reach and share zero, only points with g < 0 are reported.
     return deepest(unordered({bodies, walls, 0.0, 0.0, narrow_.place(bodies, walls)}));
 }
 

@@ -63,6 +63,8 @@ NarrowPhase::NarrowPhase(const ShapeTable& shapes) : polygons_(shapes) {
         kinds_.push_back(shape.kind);
         walls_.push_back(find_wall_detector(shape.kind));
     }
+    // The table has each pair once, in alphabetical order: where b comes first, the detector takes
+    // the bodies exchanged, and its points are exchanged back.
     for (const std::string& a : kinds_)
         for (const std::string& b : kinds_)
             pairs_.push_back({find_pair_detector(std::min(a, b), std::max(a, b)), b < a});
@@ -79,6 +81,7 @@ void NarrowPhase::pair(const PairView& view, std::vector<ContactPoint>& points) 
     const PairChoice& choice = pairs_.at(shape_a * kinds_.size() + shape_b);
     if (!choice.swapped) return choice.detect(view, points);
     const std::size_t before = points.size();
+    // The offset is from the first body to the second, so it is turned with them.
     choice.detect({view.bodies, view.b, view.a, -1.0 * view.offset, view.alert, view.placed},
                   points);
     std::for_each(points.begin() + static_cast<std::ptrdiff_t>(before), points.end(), swap_bodies);
@@ -86,6 +89,8 @@ void NarrowPhase::pair(const PairView& view, std::vector<ContactPoint>& points) 
 
 void NarrowPhase::wall(const WallView& view, std::vector<ContactPoint>& points) const {
     const std::size_t before = points.size();
+    // Detectors see a line or surface without thickness: g = g_line - half_thickness, so they look
+    // farther by as much.
     const double half = view.wall.half_thickness;
     const WallView of_line{view.bodies,     view.body,         view.wall,
                            view.wall_index, view.alert + half, view.placed};

@@ -12,6 +12,7 @@ namespace {
 /// Upper bound of |u_rel| between any two bodies, or a body and a wall: the diagonal of the
 /// bounding box of all velocities and zero.
 double speed_range(const std::vector<Twist>& twists) {
+    // Both start at zero: bodies may also meet walls at rest.
     Vec3 low{}, high{};
     for (const Twist& twist : twists)
         for (int axis = 0; axis < 3; ++axis) {
@@ -63,6 +64,8 @@ double wall_speed(const std::vector<Wall>& walls, const Bodies& bodies) {
             fastest = std::max(fastest, end_speed(wall));
             continue;
         }
+        // A half-space has no farthest point, but it acts only where a body is. Within its radius R
+        // of the centre x, |v| <= |v(x)| + |spin| R.
         for (std::size_t i = 0; i < bodies.size(); ++i)
             fastest = std::max(fastest, norm(velocity_at(wall, bodies.position[i])) +
                                             norm(wall.twist.spin) * bodies.radius[i]);
@@ -74,6 +77,8 @@ double wall_speed(const std::vector<Wall>& walls, const Bodies& bodies) {
 
 double approach_bound(const Bodies& bodies, const std::vector<Wall>& walls,
                       const std::vector<Twist>& twists, bool corners, double step) {
+    // dt (|v_b - v_a| + R_a |omega_a| + R_b |omega_b| + |v_wall|), each at its largest. A round
+    // body presents the same surface however it turns, so its spin does not count.
     double speed = speed_range(twists);
     if (corners) speed += 2.0 * rim_speed(bodies, twists);
     return step * (speed + wall_speed(walls, bodies));

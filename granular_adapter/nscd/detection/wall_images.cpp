@@ -20,6 +20,7 @@ struct Shifts {
 
 /// Those with which [middle - reach, middle + reach] meets [low, high].
 Shifts shifts(double middle, double reach, double low, double high, double period) {
+    // middle + k period + reach >= low   and   middle + k period - reach <= high
     return {static_cast<int>(std::ceil((low - reach - middle) / period)),
             static_cast<int>(std::floor((high + reach - middle) / period))};
 }
@@ -38,6 +39,7 @@ Extent extent(const Bodies& bodies) {
 Shifts shifts(const Wall& wall, std::size_t axis, const Extent& all, const PeriodicBox& box,
               double reach) {
     if (!box.repeats(static_cast<int>(axis))) return {};
+    // An image is as wide as the wall: half its extent adds to the reach.
     const Extent own = extent_of(wall);
     return shifts(0.5 * (own.low[axis] + own.high[axis]),
                   reach + 0.5 * (own.high[axis] - own.low[axis]), all.low[axis], all.high[axis],
@@ -81,6 +83,8 @@ void name_images(const std::vector<Wall>& walls, std::vector<ContactPoint>& poin
     const auto name = [&](const ContactPoint* point) {
         return std::make_tuple(wall(point).key, point->b, point->feature);
     };
+    // Images have the key of their wall, and a polygon, say, may touch two of them with the same
+    // corner: equal names follow each other, numbered in the order of the images' places.
     std::sort(at_walls.begin(), at_walls.end(), [&](const auto* p, const auto* q) {
         return std::make_pair(name(p), wall(p).point) < std::make_pair(name(q), wall(q).point);
     });
@@ -88,6 +92,7 @@ void name_images(const std::vector<Wall>& walls, std::vector<ContactPoint>& poin
     for (std::size_t k = 1; k < at_walls.size(); ++k) {
         ContactPoint& point = *at_walls[k];
         const ContactPoint& before = *at_walls[k - 1];
+        // The feature of the one before without the number it has just been given.
         const std::int32_t plain = before.feature - same * features_per_image;
         const bool again =
             wall(&point).key == wall(&before).key && point.b == before.b && point.feature == plain;

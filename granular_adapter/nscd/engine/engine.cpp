@@ -128,6 +128,7 @@ double Engine::bound(const std::vector<Twist>& twists, double dt) const {
 
 /// Sets how far to look for contacts that may close within the step.
 void Engine::look_ahead(const std::vector<Twist>& free, double dt) {
+    // A law may act at gaps that no motion closes, as adhesion and films do.
     reach_ = std::max({bound(free, dt), bound(bodies_.twist, dt), laws_.law().range()});
 }
 
@@ -136,6 +137,8 @@ void Engine::look_ahead(const std::vector<Twist>& free, double dt) {
 void Engine::gather_bodies(std::vector<Twist>& free, Mobilities& mobilities) {
     grid_ = std::make_unique<ParityGrid>(ranks_->sizes(bodies_, settings_.box), settings_.box,
                                          reach_, alert_share);
+    // In this order: copies come from the ranks to which the bodies belong now, and detection takes
+    // the own bodies to be the first ones.
     ranks_->settle(*grid_, share({&free}, &mobilities));
     present_ = bodies_;
     ranks_->add_copies(*grid_, present_, {&free}, &mobilities);
@@ -166,6 +169,7 @@ void Engine::detect() {
     if (ranks_) problem_.ranks = &ranks_->plan(*grid_, present_, found);
     points_ = std::move(found.points);
     problem_.cells = std::move(found.cells);
+    // Before the keys, which contain the features.
     if (placed_walls_.size() > walls_.size()) name_images(placed_walls_, points_);
     keys_.clear();
     keys_.reserve(points_.size());
@@ -186,6 +190,7 @@ bool Engine::may_meet_images() const {
 std::vector<Wall> Engine::placed_walls(double reach) const {
     double largest = 0.0;
     for (const double radius : bodies_.radius) largest = std::max(largest, radius);
+    // A centre is at most r + (reach + share 2 r) from a wall that it may touch.
     return with_images(walls_, bodies_, settings_.box, reach + (1.0 + 2.0 * alert_share) * largest);
 }
 
@@ -201,6 +206,7 @@ void Engine::pose(const std::vector<Twist>& free, Mobilities mobilities, double 
 Impulses Engine::initial_guess(double dt) const {
     if (!in_space()) return memory_.guesses(keys_, dt);
     Impulses guess = from_world_axes(problem_, memory_.guesses(keys_, dt));
+    // All ranks or none have moments: passes over them exchange bodies between ranks.
     if (on_any_rank(problem_, !turning_memory_.contacts().empty()))
         guess.moments = moments_of(turning_memory_.guesses(keys_, dt));
     return guess;
@@ -241,11 +247,17 @@ double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<doub
     double largest = 0.0;
     for (std::size_t k = 0; k < found.size(); ++k) {
         Contact& contact = problem_.contacts[k];
+        // A corner that ends farther away than foreseen does no harm: only positive shortfalls
+        // count, and only their change since the last round, since earlier ones are in the bias
+        // already.
         const double wanted = std::max(0.0, found[k]), change = wanted - shortfalls[k];
         const double u = contact_velocity(contact, velocities).n + contact.bias.n;
+        // With b_n = (g - shortfall)/dt the gap will be dt u - change at the end of the step.
         if (dt * u < change)
             largest =
                 std::max(largest, change / bodies_.radius[static_cast<std::size_t>(contact.b)]);
+        // b_n = (g - wanted)/dt: the side is kept as much farther away as its turn will bring it
+        // nearer.
         contact.bias.n -= change / dt;
         shortfalls[k] = wanted;
     }
@@ -258,6 +270,8 @@ void Engine::move(double dt) {
 
 void Engine::move(double dt, const std::vector<Twist>& velocities) {
     check_step(dt);
+    // An upper bound of what any gap loses; compared with the reach by
+    // max_penetration_after_move().
     moved_ = bound(velocities, dt);
     nscd::move(bodies_, velocities, dt, settings_.box);
     for (Wall& wall : walls_) nscd::move(wall, dt);
@@ -267,6 +281,7 @@ void Engine::move(double dt, const std::vector<Twist>& velocities) {
 double Engine::max_penetration() {
     if (!ranks_) return detection_.deepest_overlap(bodies_, placed_walls(0.0));
     forget_step();
+    // Reach and share zero: only pairs that overlap count here.
     grid_ = std::make_unique<ParityGrid>(ranks_->sizes(bodies_, settings_.box), settings_.box, 0.0,
                                          0.0);
     ranks_->settle(*grid_, share({}, nullptr));
@@ -291,6 +306,7 @@ double Engine::contact_violation() {
 /// The bodies of the points as they are now.
 void Engine::follow_bodies() {
     if (!ranks_) return;
+    // The host may have changed the own bodies; copies follow from their owners.
     std::copy(bodies_.position.begin(), bodies_.position.end(), present_.position.begin());
     std::copy(bodies_.twist.begin(), bodies_.twist.end(), present_.twist.begin());
     ranks_->follow(present_);
@@ -379,9 +395,11 @@ ContactKey Engine::key(const ContactPoint& point) const {
 /// and the next states to the laws.
 StepReport Engine::hand_out(SolverResult result, double dt) {
     remember(result.impulses, dt);
+    // Before the bodies get their new velocities: the approach is that at the start of the step.
     look_at_films(result.impulses, result.velocities);
     impulses_ = laws_.felt(result.impulses);
     solution_ = std::move(result.impulses);
+    // r~, not r: a bond or a cone is judged without the attraction, and without what films carry.
     laws_.find_states({points_, keys_, bodies_of_points(), placed_walls_}, carried());
     if (ranks_) {
         const auto own = static_cast<std::ptrdiff_t>(bodies_.size());
@@ -421,6 +439,7 @@ double Engine::film_work() {
     double work = 0.0;
     for (std::size_t k = 0; k < approach_.size(); ++k) {
         const double now = contact_velocity(problem_.contacts[k], bodies_of_points().twist).n;
+        // Impulse of the film times the mean velocity of the step, (u_n^- + u_n^+)/2 [J].
         work += (solution_[k].n - pressing_[k].n) * 0.5 * (approach_[k] + now);
     }
     return work;
@@ -433,6 +452,7 @@ void Engine::sum_impulses() {
                              const Vec3& moment) {
         Twist& sum = sums[static_cast<std::size_t>(body)];
         sum.velocity = sum.velocity + p;
+        // J = sum p [N s],   K = sum (arm x p + m) [N m s]
         sum.spin = sum.spin + cross(arm, p) + moment;
     };
     each_contact(problem_, sums, [&](std::size_t k) {

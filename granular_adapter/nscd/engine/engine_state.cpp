@@ -9,6 +9,8 @@
 namespace turbidite::nscd {
 namespace {
 
+// First eight bytes of a saved state. Of the memory there are two kinds, since only space has
+// moments and sides of rectangles.
 constexpr std::uint64_t bodies_format = 0x344445534354ULL;
 constexpr std::uint64_t memory_format = 0x354d454d4354ULL;
 constexpr std::uint64_t space_format = 0x33324d454d4354ULL;
@@ -84,7 +86,7 @@ void append_entries(std::vector<Entry>& all, const std::vector<Entry>& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Each once, in the order of the keys.
+/// In the order of the keys; each is there once, since one rank keeps it.
 void sort_by_key(std::vector<RememberedState>& states) {
     std::sort(states.begin(), states.end(),
               [](const RememberedState& a, const RememberedState& b) { return a.key < b.key; });
@@ -97,6 +99,7 @@ void append(Bodies& all, Bodies bodies) {
     std::vector<const void*> arrays;
     Bodies::for_each_array(more, [&](const auto& array) { arrays.push_back(&array); });
     std::size_t at = 0;
+    // Arrays are visited in the same order in both, so that the n-th pointer is of the same type.
     Bodies::for_each_array(all, [&](auto& array) {
         append_entries(array, *static_cast<const std::decay_t<decltype(array)>*>(arrays[at++]));
     });

@@ -9,7 +9,8 @@ void check_theta(double theta, double restitution) {
     if (!(theta >= 0.5 && theta <= 1.0))
         throw std::invalid_argument("theta = " + std::to_string(theta) +
                                     " must be in [0.5, 1]; below 0.5 the scheme is unstable");
-    // With e = 1, theta = 1/2 must pass however the division rounds.
+    // theta <= 1/(1 + e) keeps impacts from creating energy. With e = 1, theta = 1/2 must pass
+    // however the division rounds.
     const double most = 1.0 / (1.0 + restitution);
     if (theta > most * (1.0 + 1e-12))
         throw std::invalid_argument(
@@ -18,6 +19,9 @@ void check_theta(double theta, double restitution) {
 }
 
 std::vector<Twist> free_velocities(const Bodies& bodies, const Vec3& gravity, double step) {
+    // Topin 2011, Eq. 18: U_free = U + dt M^-1 (theta F^{k+1} + (1 - theta) F^k), with F constant
+    // over the step. Where a fluid is present the weight is that of `weight_mass`, less the
+    // displaced fluid.
     std::vector<Twist> free = bodies.twist;
     for (std::size_t i = 0; i < free.size(); ++i) {
         const Vec3 load = bodies.weight_mass[i] * gravity + bodies.force[i];
@@ -38,7 +42,7 @@ void move(Bodies& bodies, const std::vector<Twist>& velocities, double step,
 }
 
 Vec3 end_configuration(const Vec3& q, const Vec3& velocity, double step, double theta) {
-    return q - step * (1.0 - theta) * velocity;  // Eq. 18 for x
+    return q - step * (1.0 - theta) * velocity;  // x of Eq. 17
 }
 
 }  // namespace turbidite::nscd

@@ -4,7 +4,8 @@
 //
 //     M (U^{k+1} - U^k) = dt (theta F^{k+1} + (1 - theta) F^k) + J      Eq. 16, J: contact impulse
 //     x^{k+1} = x^k + dt (theta U^{k+1} + (1 - theta) U^k)              Eq. 17
-//     q^k = x^k + dt (1 - theta) U^k                                    Eq. 18, detection
+//     U_free = U^k + dt M^-1 (theta F^{k+1} + (1 - theta) F^k)          Eq. 18, free velocity
+//     q^k = x^k + dt (1 - theta) U^k                                    detection
 //
 // Eliminating x gives q^{k+1} = q^k + dt U^{k+1} exactly. The position variable everywhere is q,
 // the detection configuration; x is computed only on request. Contacts are written at q for the

@@ -23,6 +23,8 @@ ContactLaw::ContactLaw(const LawChoice& choice, const LawSettings& settings,
 
 LawTerms ContactLaw::terms(ContactSituation situation, const ContactState& state) const {
     LawTerms terms;
+    // In the order of the slots: a bond replaces the friction, an impact needs the film and may
+    // only demand a larger u_n than the gap does.
     for (const Part& part : parts_) {
         situation.state = state[part.slot];
         part.law.add(situation, terms);

@@ -32,10 +32,12 @@ void take_terms(Contact& contact, const LawTerms& terms, const ContactVector& ap
                 const ContactVector& drive) {
     ContactVector bias{terms.normal_bias, 0.0, 0.0, 0.0};
     if (terms.tangential_restitution != 0.0) {
+        // b_t = e_t u_t^-, along the direction that u_t^- has
         bias.t = terms.tangential_restitution * approach.t;
         bias.s = terms.tangential_restitution * approach.s;
     }
     contact.friction = terms.friction;
+    // u is relative to the wall, whose velocity is no unknown: u = H^T v - v_wall + b.
     contact.bias = bias - drive;
     contact.rolling = terms.rolling;
     contact.torsion = terms.torsion;
@@ -44,6 +46,8 @@ void take_terms(Contact& contact, const LawTerms& terms, const ContactVector& ap
 /// The film of a contact whose bias is set, as the problem has it.
 Film film_in(const FilmTerms& terms, double normal_bias, double step) {
     if (terms.coefficient == 0.0) return {};
+    // Gaps over dt, in speeds (film.hpp): gamma, gamma_c, and the offset sigma - u_n. With the film
+    // at sigma = v + gamma and u_n = v + b_n the offset is gamma - b_n.
     const double gap = terms.gap / step;
     return {terms.coefficient, gap, terms.cutoff / step, gap - normal_bias};
 }
@@ -104,6 +108,8 @@ std::vector<double> ContactLaws::shares(const std::vector<ContactPoint>& points)
     const auto pair_of = [](const ContactPoint& p) { return std::array{p.a, p.wall, p.b}; };
     std::map<std::array<std::int32_t, 3>, double> counts;
     for (const ContactPoint& p : points)
+        // Two polygons may touch in two points, and only those that the law reaches share its
+        // force.
         if (p.gap < law_.range()) counts[pair_of(p)] += 1.0;
     std::vector<double> result;
     for (const ContactPoint& p : points)
@@ -132,6 +138,7 @@ Surface ContactLaws::surface(const DetectedContacts& contacts, const ContactPoin
     if (wall.material >= 0) return surfaces_.pair(own, wall.material);
     Surface result = surfaces_.pair(own, own);
     result.friction = wall.friction;
+    // Static friction must not be below sliding friction, which is the wall's here.
     result.static_friction = std::max(result.static_friction, wall.friction);
     return result;
 }
@@ -169,6 +176,7 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         now.step = step;
         if (!share.empty()) now.share = share[k];
         if (law_.reads_velocities()) {
+            // u^- = H^T U - v_wall of the start of the step; the same of the free velocities below.
             approach = contact_velocity(contact, contacts.bodies.twist) - drive;
             now.approach = magnitudes(approach);
             now.free = magnitudes(contact_velocity(contact, free) - drive);
@@ -181,17 +189,23 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         if (law_.remembers()) situations_.push_back(now), terms_.push_back(terms);
         if (terms.attraction != 0.0) {
             attraction_.resize(contacts.points.size(), 0.0);
+            // dt c [N s]
             attraction_[k] = step * terms.attraction;
         }
     }
+    // A rank without attraction of its own takes part: its bodies may be pulled by contacts of
+    // others.
     if (on_any_rank(problem, !attraction_.empty())) pull(problem);
     return problem;
 }
 
 // What holds a pair at rest may cancel the attraction to the last digit.
 void ContactLaws::pull(ContactProblem& problem) const {
+    // With r~ = 0 the bodies feel -dt c n: v_free - dt M^-1 H c n.
     std::vector<Twist> pulled = body_velocities(problem, felt(Impulses(problem.contacts.size())));
     for (std::size_t i = 0; i < pulled.size(); ++i)
+        // The largest |dt M^-1 H c|: speeds that may cancel, for the rounding floor of the
+        // residual.
         problem.cancelled =
             std::max(problem.cancelled, norm(pulled[i].velocity - problem.free[i].velocity));
     if (problem.ranks) problem.cancelled = problem.ranks->largest(problem.cancelled);
@@ -200,6 +214,7 @@ void ContactLaws::pull(ContactProblem& problem) const {
 
 Impulses ContactLaws::felt(const Impulses& solution) const {
     Impulses result = solution;
+    // r = r~ - dt c n
     for (std::size_t k = 0; k < attraction_.size(); ++k) result[k].n -= attraction_[k];
     return result;
 }

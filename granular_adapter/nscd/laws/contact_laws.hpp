@@ -70,7 +70,7 @@ class ContactLaws {
     LawList list_;
     LawSettings settings_;
     SurfaceTable surfaces_;
-    std::vector<std::uint8_t> round_;  ///< by shape: whether it is a disc
+    std::vector<std::uint8_t> round_;  ///< by shape: whether it is a disc or sphere
     ContactLaw law_;
     ContactStates states_;
     std::vector<ContactSituation> situations_;  ///< of the last problem, if the law has states

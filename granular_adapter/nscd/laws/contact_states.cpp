@@ -26,6 +26,7 @@ void ContactStates::find(std::vector<RememberedState> next) {
 
 void ContactStates::accept() {
     started_ = true;
+    // `found_` stays: another move without a new step leaves the states as they are.
     accepted_ = found_;
 }
 

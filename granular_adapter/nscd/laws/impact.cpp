@@ -9,6 +9,8 @@ namespace turbidite::nscd {
 
 double speed_lost(const ContactSituation& s, const FilmTerms& film) {
     if (film.coefficient == 0.0) return 0.0;
+    // g_h = g + roughness, so that `closed` is the roughness, where surfaces touch. Beyond the
+    // cut-off the film takes nothing: the way through it begins there.
     const double closed = film.gap - std::max(s.gap, 0.0), from = std::min(film.gap, film.cutoff);
     if (from <= closed) return 0.0;
     // W C (ln(g/g_closed) - (g - g_closed)/g_c)
@@ -17,10 +19,12 @@ double speed_lost(const ContactSituation& s, const FilmTerms& film) {
 }
 
 double approach_at_touch(const ContactSituation& s, const FilmTerms& film) {
+    // Approach is negative, and the film takes at most all of it.
     return s.approach.n < 0.0 ? std::min(s.approach.n + speed_lost(s, film), 0.0) : s.approach.n;
 }
 
 bool in_impact(const ContactSituation& s, const LawTerms& terms, double threshold) {
+    // Closed, or closed by the free motion within the step: g + dt u_free <= 0.
     return approach_at_touch(s, terms.film) < -threshold &&
            (touching(s) || s.gap + s.step * s.free.n <= 0.0);
 }

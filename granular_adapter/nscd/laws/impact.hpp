@@ -10,9 +10,9 @@
 
 namespace turbidite::nscd {
 
-/// What a film takes of the speed between the gap and touching, from the integral of m dv = -C
-/// (1/g_h
-/// - 1/g_c) dg with 1/m = W_nn; zero without one [m/s].
+/// What a film takes of the speed between the gap and touching: the integral over the gap of
+///     m dv = -C (1/g_h - 1/g_c) dg,   1/m = W_nn
+/// Zero without a film [m/s].
 double speed_lost(const ContactSituation& situation, const FilmTerms& film);
 
 /// u_n^-; with a film what it leaves of an approach by the time the surfaces touch, zero if they do

@@ -54,6 +54,7 @@ SurfaceTable::SurfaceTable(std::vector<Surface> surfaces, std::vector<SurfacePai
                                         std::to_string(high) + ": there are only " +
                                         std::to_string(count_));
         check(pair.values, static_cast<std::size_t>(low));
+        // Both entries, so that the table is symmetric.
         pairs_[static_cast<std::size_t>(low * count_ + high)] = pair.values;
         pairs_[static_cast<std::size_t>(high * count_ + low)] = pair.values;
     }

@@ -24,6 +24,7 @@ Mobilities mobilities_of(const Bodies& bodies, int dimension) {
             return PlanarTensor(linear, angular.zz);
         });
     return by_body<SpaceMobility>(bodies, [](double linear, const Symmetric3& angular) {
+        // The moments of a sphere about all axes are equal.
         return SpaceMobility{linear, angular.xx};
     });
 }

@@ -41,6 +41,8 @@ RoundingFloor::RoundingFloor(const ContactProblem& problem) : cancelled_(problem
 }
 
 double RoundingFloor::term(const Contact& contact, double nn) const {
+    // The speeds of which u_n is the difference. An impulse of `rounding` times their sum over W_nn
+    // changes u_n by as little as rounding does.
     double speed = speeds_[static_cast<std::size_t>(contact.b)] + norm(contact.bias) + cancelled_;
     if (contact.a >= 0) speed += speeds_[static_cast<std::size_t>(contact.a)];
     const double impulse = rounding * speed / nn;
@@ -61,6 +63,7 @@ double contact_violation(const ContactProblem& problem, const Impulses& r,
         double largest = 0.0;
         for (std::size_t k = 0; k < r.size(); ++k) {
             const double u = biased_velocity(problem.contacts[k], v).n;
+            // max |min(u_n, W_nn r_n)|, with films |W_nn (r_n* - r_n)|
             largest = std::max(largest, violation(film_of(problem, k), w.block(k).nn, r[k].n, u));
         }
         return largest;
@@ -73,6 +76,7 @@ Impulses carried_by_contacts(const ContactProblem& problem, const Impulses& r,
     if (problem.films.empty()) return carried;
     with_operator(problem, [&](const auto& w) {
         for (std::size_t k = 0; k < r.size(); ++k) {
+            // b of the contact alone is u - W_nn r_n, the velocity without its own impulse.
             const double nn = w.block(k).nn, u = biased_velocity(problem.contacts[k], v).n;
             carried[k].n = solve_film(problem.films[k], nn, u - nn * r[k].n).contact;
         }

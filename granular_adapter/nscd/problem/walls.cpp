@@ -13,6 +13,7 @@ namespace {
 
 /// Of a segment or a rectangle along one axis.
 double half_extent(const Wall& wall, std::size_t axis) {
+    // A segment is along e_z x n = (-n_y, n_x): L |n_y| along x, L |n_x| along y.
     if (wall.form != WallForm::rectangle)  // a segment lies in the plane
         return axis < 2 ? std::abs(wall.normal[1 - axis]) * wall.half_length : 0.0;
     const Vec3 across = cross(wall.normal, wall.side);
@@ -22,6 +23,8 @@ double half_extent(const Wall& wall, std::size_t axis) {
 Extent round_extent(const Wall& wall) {
     Extent all;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+        // A circle of radius R about the axis n reaches R sqrt(1 - n_i^2) from its centre along
+        // axis i. The surface is the convex combination of its two rims, so these give its extent.
         const double n = wall.normal[axis], across = std::sqrt(std::max(0.0, 1.0 - n * n));
         const auto& [p, q] = wall.meridian;
         const double most = wall.half_thickness, x = wall.point[axis];
@@ -69,6 +72,7 @@ Extent extent_of(const Wall& wall) {
 }
 
 double signed_distance(const Wall& wall, const Vec3& point) {
+    // n . (x - p)
     return dot(wall.normal, point - wall.point);
 }
 
@@ -77,10 +81,12 @@ bool is_moving(const Wall& wall) {
 }
 
 Vec3 velocity_at(const Wall& wall, const Vec3& place) {
+    // v(x) = velocity + spin x (x - pivot)
     return wall.twist.at(place - wall.pivot);
 }
 
 void move(Wall& wall, double step) {
+    // The arm from the pivot turns by dt spin, and the pivot moves by dt velocity.
     const Vec3 arm = wall.point - wall.pivot;
     const Shift shift = step * wall.twist;
     wall.pivot = wall.pivot + shift.displacement;
@@ -91,6 +97,7 @@ void move(Wall& wall, double step) {
     const Rotation turn = rotation(shift.angle);
     wall.point = wall.pivot + turn(arm);
     wall.normal = turn(wall.normal);
+    // Keeps the rounding of many steps from changing its length.
     wall.normal = (1.0 / norm(wall.normal)) * wall.normal;
     if (wall.form == WallForm::rectangle) wall.side = turn(wall.side);
 }

@@ -27,9 +27,12 @@ std::size_t scrambled(const ContactKey& key) {
 
 std::vector<std::int32_t> hash_table(const std::vector<RememberedContact>& contacts) {
     if (contacts.empty()) return {};
+    // At most half full, so that a search ends after few steps; a power of two, so that & replaces
+    // the remainder.
     std::vector<std::int32_t> places(std::bit_ceil(2 * contacts.size()), -1);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         std::size_t at = scrambled(contacts[i].key);
+        // Linear probing: the next free place.
         while (places[at & (places.size() - 1)] >= 0) ++at;
         places[at & (places.size() - 1)] = static_cast<std::int32_t>(i);
     }

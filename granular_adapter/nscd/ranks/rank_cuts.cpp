@@ -31,6 +31,7 @@ std::size_t best_cut(const std::vector<CellLoad>& loads, int axis, double share)
     std::size_t cut = loads.size();
     for (std::size_t i = 0; i + 1 < loads.size(); ++i) {
         below += loads[i].work;
+        // Cells of one layer have the same coordinate: no plane can separate them.
         if (!(loads[i].centre[axis] < loads[i + 1].centre[axis])) continue;
         const double off = std::abs(below - share * all);
         if (off < best) best = off, cut = i + 1;
@@ -51,12 +52,16 @@ std::size_t RankCuts::add(std::vector<CellLoad> loads, int first, int ranks) {
     if (ranks == 1 || loads.empty()) return own;
     const int axis = longest_axis(loads), below = ranks / 2;
     std::sort(loads.begin(), loads.end(), [axis](const CellLoad& a, const CellLoad& b) {
+        // The whole centre breaks ties, so that the cuts do not depend on which rank gave a load
+        // first.
         return std::tie(a.centre[axis], a.centre) < std::tie(b.centre[axis], b.centre);
     });
     const std::size_t cut =
         best_cut(loads, axis, static_cast<double>(below) / static_cast<double>(ranks));
+    // All cells in one layer: they stay on the first of these ranks, and the others have none.
     if (cut == loads.size()) return own;
     const auto middle = loads.begin() + static_cast<std::ptrdiff_t>(cut);
+    // Half-way between two layers of centres: no centre lies on the plane.
     const double at = 0.5 * (loads[cut - 1].centre[axis] + loads[cut].centre[axis]);
     const std::size_t low = add({loads.begin(), middle}, first, below);
     const std::size_t high = add({middle, loads.end()}, first + below, ranks - below);

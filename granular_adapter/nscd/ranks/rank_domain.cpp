@@ -19,7 +19,7 @@ constexpr std::int64_t steps_between_cuts = 20;
 
 constexpr std::size_t parities = 8;
 
-/// The body whose rank keeps what is known of a contact.
+/// The body whose rank keeps what is known of a contact; at a wall `first` is the wall's key.
 GrainId keeper(const ContactKey& key) {
     return key.wall != 0 ? key.second : key.first;
 }
@@ -81,6 +81,7 @@ CellSizes RankDomain::sizes(const Bodies& own, const PeriodicBox& box) {
     box_ = box;
     double work = 0.0;
     for (const CellLoad& load : loads_) work += load.work;
+    // Three numbers per rank: its bodies, its span, its work.
     const std::vector<double> all =
         gathered(ranks_, std::vector<double>{static_cast<double>(own.size()),
                                              span_of(own.position, box.lower), work});
@@ -91,6 +92,7 @@ CellSizes RankDomain::sizes(const Bodies& own, const PeriodicBox& box) {
         span = std::max(span, all[i + 1]);
         works.push_back(all[i + 2]);
     }
+    // Bodies keep their radii: all are gathered anew only when the number of bodies has changed.
     if (static_cast<double>(radii_.size()) != bodies) {
         radii_ = gathered(ranks_, own.radius);
         sizes_ = sizes_of(radii_);
@@ -102,6 +104,7 @@ CellSizes RankDomain::sizes(const Bodies& own, const PeriodicBox& box) {
 
 bool RankDomain::is_uneven(const std::vector<double>& work) const {
     const double all = std::accumulate(work.begin(), work.end(), 0.0);
+    // max > 1.15 sum/ranks
     return *std::max_element(work.begin(), work.end()) * ranks_.size() > uneven * all;
 }
 
@@ -111,6 +114,8 @@ void RankDomain::check_periods(const Bodies& own, const PeriodicBox& box) {
 }
 
 std::vector<Twist> RankDomain::extremes(const std::vector<Twist>& own) const {
+    // The bounding box of all velocities and zero, as in reach.cpp; ranks have round bodies only,
+    // whose spins do not bring surfaces closer.
     Twist low, high;
     const auto extend = [&](const Twist& twist) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -125,6 +130,7 @@ std::vector<Twist> RankDomain::extremes(const std::vector<Twist>& own) const {
 
 void RankDomain::cut(const ParityGrid& grid, const Bodies& own) {
     if (is_cut_) return;
+    // No step has counted contacts yet: bodies stand for them.
     if (loads_.empty()) {
         std::map<Vec3, double> count;
         for (const Vec3& x : own.position) count[grid.centre(grid.cell(x))] += 1.0;
@@ -136,6 +142,7 @@ void RankDomain::cut(const ParityGrid& grid, const Bodies& own) {
 }
 
 int RankDomain::home(const ParityGrid& grid, const Vec3& position, double radius) const {
+    // By the centre of the cell, so that a cell is never divided between ranks.
     return grid.is_large(radius) ? 0 : cuts_.rank(grid.centre(grid.cell(position)));
 }
 
@@ -157,6 +164,7 @@ void RankDomain::settle(const ParityGrid& grid, const RankShare& share) {
         leaving[static_cast<std::size_t>(rank)].push_back(static_cast<std::int32_t>(i));
         moved.emplace(bodies.id[i], rank);
     }
+    // All ranks or none: what follows is collective.
     if (!any(ranks_, !moved.empty())) return;
     const auto visit = [&](const auto& each) {
         each_array(share.bodies, share.twists, share.mobilities, each);
@@ -167,6 +175,7 @@ void RankDomain::settle(const ParityGrid& grid, const RankShare& share) {
     take_rows(staying, visit);
     for (const RankExchange::Bytes& arrived : ranks_.swap(std::move(rows)))
         append_rows(arrived, visit);
+    // Which way a body came does not show in the order.
     take_rows(order_of_ids(bodies), visit);
     // Contacts of large bodies stay on the first rank.
     const auto destination = [&](const ContactKey& key) {
@@ -203,6 +212,8 @@ std::vector<int> RankDomain::holders(const ParityGrid& grid, const Bodies& bodie
     grid.each_cell_near(
         x, [&](const ParityGrid::Cell& cell) { found.push_back(cuts_.rank(grid.centre(cell))); });
     for (const Large& other : large_)
+        // A large body reaches beyond the distance d of the cells, so its pairs are looked for one
+        // by one; a little farther, so that rounding misses none.
         if (norm(box_.minimum_image(other.position - x)) < 1.001 * grid.bound(radius, other.radius))
             found.push_back(0);
     std::sort(found.begin(), found.end());
@@ -218,6 +229,8 @@ void RankDomain::add_copies(const ParityGrid& grid, Bodies& bodies,
     own_ = bodies.size();
     lent_.assign(static_cast<std::size_t>(ranks_.size()), {});
     borrowed_.clear();
+    // A rank with a copy of a body may have contacts of it: its cells are within d, or it has a
+    // large body that is near.
     for (std::size_t i = 0; i < own_; ++i)
         for (const int rank : holders(grid, bodies, i))
             if (rank != me)
@@ -236,6 +249,7 @@ void RankDomain::number_shared(const ParityGrid& grid, const Bodies& bodies) {
     holders_.assign(bodies.size(), {});
     shared_.clear();
     const auto number = [&](std::size_t i) {
+        // A body may be lent to several ranks: it is numbered once.
         if (!shared_.emplace(bodies.id[i], static_cast<std::int32_t>(i)).second) return;
         holders_[i] = holders(grid, bodies, i);
         std::erase(holders_[i], me);
@@ -255,6 +269,7 @@ void RankDomain::follow(Bodies& bodies) const {
         lent.emplace_back();
         for (const std::int32_t i : of_rank) {
             const auto at = static_cast<std::size_t>(i);
+            // No ids: both sides know the order from add_copies().
             lent.back().push_back({bodies.position[at], bodies.twist[at]});
         }
     }
@@ -270,6 +285,8 @@ void RankDomain::follow(Bodies& bodies) const {
 std::vector<std::vector<int>> RankDomain::users(const Bodies& bodies,
                                                 const OrderedPoints& found) const {
     std::vector<std::uint8_t> used(bodies.size(), 0);
+    // The owner moves the body, and so needs its velocity even where all contacts are on other
+    // ranks.
     std::fill_n(used.begin(), own_, 1);
     for (const ContactPoint& point : found.points)
         for (const std::int32_t body : {point.a, point.b})
@@ -305,6 +322,7 @@ std::vector<PhaseWays> RankDomain::ways(const Bodies& bodies, const OrderedPoint
             for (const std::int32_t body : {found.points[k].a, found.points[k].b}) {
                 if (body < 0) continue;
                 const auto i = static_cast<std::size_t>(body);
+                // Once in a phase, after all of its contacts of this phase.
                 if (users[i].empty() || told_in[i] == phase) continue;
                 told_in[i] = phase;
                 for (const int rank : users[i])
@@ -312,6 +330,8 @@ std::vector<PhaseWays> RankDomain::ways(const Bodies& bodies, const OrderedPoint
             }
         for (std::size_t rank = 0; rank < ranks; ++rank) {
             const std::vector<std::int32_t>& sent = ways[phase].sent[rank];
+            // By phase the number of bodies and their ids, in the order in which their values will
+            // travel. Indices mean nothing to another rank.
             told[rank].push_back(static_cast<GrainId>(sent.size()));
             for (const std::int32_t i : sent)
                 told[rank].push_back(bodies.id[static_cast<std::size_t>(i)]);
@@ -331,14 +351,18 @@ std::vector<PhaseWays> RankDomain::ways(const Bodies& bodies, const OrderedPoint
 const RankPlan& RankDomain::plan(const ParityGrid& grid, const Bodies& bodies,
                                  const OrderedPoints& found) {
     std::vector<std::size_t> cell_ends = found.phase_ends;
+    // The ninth phase has the contacts of large bodies: without such bodies one exchange less per
+    // sweep.
     if (large_.empty()) cell_ends.resize(parities);
     std::vector<std::int32_t> contact_ends;
     for (const std::size_t cells : cell_ends)
         contact_ends.push_back(cells == 0 ? 0 : found.cells.end[cells - 1]);
+    // The work of a cell is its number of contacts in this step.
     loads_.clear();
     for (std::size_t cell = 0; cell < found.cells.size(); ++cell) {
         const std::int32_t first = found.cells.first(cell), end = found.cells.end[cell];
         const ContactPoint& point = found.points[static_cast<std::size_t>(first)];
+        // The body with the lower id, whose cell the contact is in.
         const auto body = static_cast<std::size_t>(point.a >= 0 ? point.a : point.b);
         loads_.push_back(
             {grid.centre(grid.cell(bodies.position[body])), static_cast<double>(end - first)});

@@ -3,9 +3,9 @@
 // The part of a configuration that a rank works on. A body belongs to the rank of its cell
 // (rank_cuts.hpp), large ones to the first rank. Before a step
 //
-//     settle   bodies that have left their cells go to other ranks, with all that is kept about
-//     them copies   every rank gets copies of the bodies within the distance d of its cells plan
-//     which velocities go from rank to rank while the contacts are swept
+//     settle   bodies that have left their cells go to other ranks, with all that is kept of them
+//     copies   every rank gets copies of the bodies within the distance d of its cells
+//     plan     which velocities go from rank to rank while the contacts are swept
 //
 // All functions that are not const are called by all ranks in the same order.
 #pragma once

@@ -27,6 +27,7 @@ RankPlan::RankPlan(RankExchange& ranks, std::vector<PhaseWays> ways,
     std::vector<RankExchange::Traffic> phases;
     for (const PhaseWays& phase : ways_)
         phases.push_back({doubles(phase.sent), doubles(phase.received)});
+    // The ways stay the same for all sweeps of the solve.
     ranks_.prepare(phases);
 }
 

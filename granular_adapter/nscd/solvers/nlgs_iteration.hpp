@@ -81,6 +81,8 @@ class NlgsIteration {
  private:
     void leave_out_unloaded(Impulses& r) const {
         for (std::size_t k = 0; k < r.size(); ++k) {
+            // A guess may have a tangential part without a normal one, which no solution has; only
+            // films pull.
             if (r[k].n > 0.0 || (r[k].n < 0.0 && film_of(problem_, k))) continue;
             r[k] = {};
             if (!r.moments.empty()) r.moments[k] = {};

@@ -21,7 +21,8 @@ struct SolverSettings {
     /// Sweeps between two evaluations of the residual; fewer waste time on evaluations, more on
     /// sweeps.
     std::int64_t check_interval = 8;
-    /// Threads for this solve; the result does not depend on it. Small problems use one (nlgs.cpp).
+    /// Threads for this solve; the result does not depend on it. Small problems use one
+    /// (nlgs_iteration.hpp).
     std::int64_t threads = 1;
 };
 

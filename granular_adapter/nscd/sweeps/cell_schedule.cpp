@@ -35,6 +35,8 @@ class CellGroups {
 
     /// False if the present stretch is full.
     bool place(std::int32_t contact, const MovedPair& pair) {
+        // Any order within a cell will do: the first group with a free lane and neither body in or
+        // near it.
         const int group = Groups::first_outside(full_, near(pair.a), near(pair.b));
         if (group == most_groups) return false;
         make_room(group);
@@ -67,11 +69,14 @@ class CellGroups {
         static const Groups none;
         if (body < 0) return none;
         Near& own = near_[static_cast<std::size_t>(body)];
+        // Groups are numbered from the beginning of a stretch: those of an earlier one mean nothing
+        // here, and resetting all bodies at each stretch would take longer.
         if (own.stretch != stretch_) own = {stretch_, {}};
         return own.groups;
     }
 
     void keep_apart(Groups& groups, int group) const {
+        // Groups nearer than `distance` on both sides.
         for (int by = 1 - distance_; by < distance_; ++by) groups.add(group + by);
     }
 
@@ -100,6 +105,7 @@ class CellSchedule {
 
     void add_cell(std::int32_t first, std::int32_t last) {
         for (std::int32_t k = first; k < last; ++k)
+            // A cell with more contacts than a stretch can hold goes on in another stretch.
             if (!place(k)) end_stretch(), place(k);
         end_stretch();
         schedule.cell_ends.push_back(schedule.stretches.size());

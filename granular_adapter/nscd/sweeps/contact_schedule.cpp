@@ -14,6 +14,8 @@ class Placement {
         : settings_(settings), ready_(bodies, 0) {}
 
     void place(std::int32_t contact, const MovedPair& pair) {
+        // Not before the group after which both bodies are free: contacts of one body keep their
+        // order.
         const std::int32_t group = first_free(std::max(ready(pair.a), ready(pair.b)));
         if (group >= groups()) {
             lanes_.resize(static_cast<std::size_t>(group + 1) * width(), -1);
@@ -38,15 +40,18 @@ class Placement {
 
     std::int32_t first_free(std::int32_t earliest) {
         earliest = std::max(earliest, first_);
+        // Only 64 groups are open: older ones are closed as they are, with empty lanes.
         if (earliest >= first_ + 64) advance(earliest - 63);
         if (const std::uint64_t later = open_ >> (earliest - first_); later != 0)
             return earliest + std::countr_zero(later);
+        // All open groups from `earliest` on are full: a new one, the last of the 64.
         advance(first_ + 1);
         return first_ + 63;
     }
 
     void advance(std::int32_t first) {
         const std::int32_t by = first - first_;
+        // The groups that enter at the end are open.
         open_ = by >= 64 ? ~std::uint64_t{0} : (open_ >> by) | ~(~std::uint64_t{0} >> by);
         first_ = first;
     }
@@ -108,6 +113,8 @@ Schedule make_schedule(const std::vector<MovedPair>& pairs, const std::vector<st
         (active[k] != 0 ? moving : resting).place(static_cast<std::int32_t>(k), pairs[k]);
         if ((k + 1) % static_cast<std::size_t>(settings.stretch) != 0 && k + 1 != pairs.size())
             continue;
+        // Groups that are still open may get contacts of later stretches; they belong to the
+        // stretch in which they began.
         last = {{last.active.last, moving.groups()}, {last.resting.last, resting.groups()}};
         schedule.stretches.push_back(last);
     }
@@ -125,6 +132,7 @@ void complete(Schedule& schedule, const std::vector<std::int32_t>& resting,
     schedule.all = schedule.active + groups(resting);
     schedule.lanes.insert(schedule.lanes.end(), resting.begin(), resting.end());
     for (Stretch& stretch : schedule.stretches)
+        // Groups at rest come after all active ones in `lanes`.
         for (std::int32_t* end : {&stretch.resting.first, &stretch.resting.last})
             *end += schedule.active;
     const LastStretches touching(schedule, pairs, bodies, width);

@@ -13,7 +13,7 @@
 // (sweep_pipeline.hpp).
 //
 // Active contacts, those expected to have an impulse, share groups only with each other, and so do
-// the others, which are at rest (inactive). Sweeps may skip groups at rest (nlgs.cpp). The order is
+// the others, which are at rest (inactive). Sweeps may skip groups at rest (nlgs.hpp). The order is
 // divided into stretches, and each stretch has its active groups first: whatever is skipped, work
 // on one region of space is done at one time.
 #pragma once

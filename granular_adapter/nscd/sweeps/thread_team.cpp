@@ -37,6 +37,8 @@ ThreadTeam::~ThreadTeam() {
 void ThreadTeam::run(const std::function<void(int)>& work) {
     if (threads_.empty()) return work(0);
     work_ = &work;
+    // The release of order_ publishes work_ and busy_ to the threads that acquire it; the release
+    // of each thread's busy_ publishes what it has written to the caller.
     busy_.store(static_cast<int>(threads_.size()), std::memory_order_relaxed);
     order_.fetch_add(1, std::memory_order_release);
     order_.notify_all();
@@ -48,6 +50,8 @@ void ThreadTeam::run(const std::function<void(int)>& work) {
 void ThreadTeam::serve(int number) {
     for (std::int64_t seen = 0;;) {
         Patience patience;
+        // Sweeps follow each other within microseconds: spinning saves waking the thread. Between
+        // solves it sleeps.
         for (int turn = 0; turn < hot_turns && order_.load(std::memory_order_acquire) == seen;
              ++turn)
             patience.wait();

@@ -19,10 +19,13 @@ PolygonShapes::UnitPolygon unit_polygon(const std::vector<Point2>& outline) {
     for (std::size_t k = 0; k < n; ++k) {
         const Point2 &a = outline[k], &b = outline[(k + 1) % n];
         const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+        // Counter-clockwise, so the outside is on the right of the direction from a to b.
         const double nx = (b[1] - a[1]) / length, ny = (a[0] - b[0]) / length;
         const double support = nx * a[0] + ny * a[1];
         const double values[rows] = {a[0], a[1], nx, ny, support};
         for (std::size_t row = 0; row < rows; ++row) unit.numbers[row * n + k] = values[row];
+        // The centre of mass lies inside, so every support is positive and the smallest is the
+        // radius of a circle about it within the outline.
         unit.in_radius = std::min(unit.in_radius, support);
     }
     return unit;
@@ -50,7 +53,8 @@ PlacedPolygons::PlacedPolygons(const PolygonShapes& shapes, const Bodies& bodies
     for (std::size_t i = 0; i < bodies.size(); ++i) place(i);
 }
 
-// A quaternion (w, 0, 0, z) rotates by the angle of cosine w^2 - z^2 and sine 2 w z.
+// A quaternion (w, 0, 0, z) rotates by the angle of cosine w^2 - z^2 and sine 2 w z; both are
+// divided by w^2 + z^2, which rounding may have changed from 1.
 void PlacedPolygons::place(std::size_t body) {
     const PolygonShapes::UnitPolygon& unit = shapes_[bodies_.shape[body]];
     const Quaternion& q = bodies_.orientation[body];

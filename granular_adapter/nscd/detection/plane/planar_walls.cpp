@@ -11,6 +11,7 @@ namespace turbidite::nscd {
 namespace {
 
 Vec3 tangent_of(const Wall& wall) {
+    // t = e_z x n
     return {-wall.normal[1], wall.normal[0], 0.0};
 }
 
@@ -24,6 +25,7 @@ void disc_corner(const WallView& view, double end, std::vector<ContactPoint>& po
     // A disc whose centre is the corner may leave along the wall.
     const Vec3 normal =
         distance > 0.0 ? (1.0 / distance) * offset : std::copysign(1.0, end) * tangent;
+    // Features: 0 the side, 1 and 2 its ends.
     points.push_back({-1, view.body, view.wall_index, end > 0.0 ? 1 : 2, distance - radius, normal,
                       Vec3{}, -radius * normal});
 }

@@ -25,6 +25,7 @@ struct Nearest {
 Nearest nearest_side(const PolygonView& polygon, double x, double y) {
     Nearest nearest;
     for (int k = 0; k < polygon.sides; ++k) {
+        // h_k = n_k . x - support_k; inside the polygon all of them are negative.
         const double height = polygon.nx[k] * x + polygon.ny[k] * y - polygon.support[k];
         if (height > nearest.height) nearest = {k, height};
     }
@@ -41,11 +42,14 @@ struct Approach {
 Approach approach(const PolygonView& polygon, const Nearest& nearest, double x, double y) {
     const int k = nearest.side, next = polygon.after(k);
     const Vec3 side_normal{polygon.nx[k], polygon.ny[k], 0.0};
+    // Place along the side, (e_z x n) . (p - corner k).
     const auto along = [&](double px, double py) {
         return side_normal[0] * (py - polygon.y[k]) - side_normal[1] * (px - polygon.x[k]);
     };
     const double t = along(x, y);
     const bool beyond = t > along(polygon.x[next], polygon.y[next]);
+    // Inside, the side over which the point is highest has the smallest overlap. Outside, the
+    // nearest place is on that side or at the corner beyond which the point lies.
     if (nearest.height <= 0.0 || (t >= 0.0 && !beyond)) return {side_normal, nearest.height, 2 * k};
     const int corner = beyond ? next : k;
     const Vec3 line{x - polygon.x[corner], y - polygon.y[corner], 0.0};
@@ -58,6 +62,7 @@ struct Plate {
     double x[2], y[2], nx[1], ny[1], support[1] = {0.0};
 
     Plate(const Wall& wall, const Vec3& normal) : nx{normal[0]}, ny{normal[1]} {
+        // End -L and end L along e_z x n, relative to the wall's point.
         for (const int end : {0, 1}) {
             const double place = end == 0 ? -wall.half_length : wall.half_length;
             x[end] = -place * normal[1];
@@ -72,6 +77,7 @@ struct Plate {
 
 void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
     const Vec3 offset = view.bodies.position[view.body] - view.wall.point;
+    // A plate holds a body on the side on which its centre lies.
     const double sign = dot(view.wall.normal, offset) < 0.0 ? -1.0 : 1.0;
     const Plate plate(view.wall, sign * view.wall.normal);
     const Manifold manifold =
@@ -80,6 +86,7 @@ void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
     for (int i = 0; i < manifold.count; ++i) {
         const ManifoldPoint& p = manifold.points[static_cast<std::size_t>(i)];
         const Vec3 normal{p.nx, p.ny, 0.0}, middle{p.x, p.y, 0.0};
+        // From the middle of the gap to the surface of the body, where arms at walls end.
         const Vec3 arm = middle + 0.5 * p.gap * normal - offset;
         // Seen from behind, the corners of the plate are exchanged.
         const int corner = !p.of_second && sign < 0.0 ? 1 - p.corner : p.corner;
@@ -95,6 +102,8 @@ void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points)
     const auto gap = [&](int k) {
         return centre + normal[0] * polygon.x[k] + normal[1] * polygon.y[k];
     };
+    // The lowest corner, and the lower of its neighbours: no other corner of a convex polygon can
+    // be among the two lowest.
     int lowest = 0;
     for (int k = 1; k < polygon.corners; ++k)
         if (gap(k) < gap(lowest)) lowest = k;
@@ -102,6 +111,7 @@ void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points)
     const int second = gap(before) < gap(after) ? before : after;
     const Vec3 side{polygon.x[second] - polygon.x[lowest], polygon.y[second] - polygon.y[lowest],
                     0};
+    // Each of two points stands for half the side.
     const double length = gap(second) < view.alert ? 0.5 * norm(side) : 0.0;
     for (const int k : {lowest, second})
         if (gap(k) < view.alert)
@@ -121,6 +131,9 @@ void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points)
 
 void polygon_polygon(const PairView& view, std::vector<ContactPoint>& points) {
     const bool in_order = view.bodies.id[view.a] < view.bodies.id[view.b];
+    // The manifold is that of (smaller id, larger id), so that names and the choice of the
+    // reference do not depend on which body the caller calls a. Normal, arms and sides are turned
+    // back below.
     const double sign = in_order ? 1.0 : -1.0;
     const PolygonView a = view.placed->polygons[view.a], b = view.placed->polygons[view.b];
     const Manifold manifold =
@@ -148,11 +161,13 @@ void disc_polygon(const PairView& view, std::vector<ContactPoint>& points) {
     const PolygonView polygon = view.placed->polygons[view.b];
     const double x = -view.offset[0], y = -view.offset[1];
     const Nearest nearest = nearest_side(polygon, x, y);
+    // The height over a side is at most the distance from the polygon: most pairs end here.
     if (!(nearest.height - radius < view.alert)) return;
     const Approach to_disc = approach(polygon, nearest, x, y);
     const double gap = to_disc.distance - radius;
     if (!(gap < view.alert)) return;
     const Vec3 arm_a = (-radius - 0.5 * gap) * to_disc.normal;
+    // The normal of a corner turns with no side.
     points.push_back({view.a, view.b, -1, to_disc.feature, gap, -1.0 * to_disc.normal, arm_a,
                       arm_a - view.offset, 0.0, to_disc.feature % 2 == 0 ? 2 : 0});
 }

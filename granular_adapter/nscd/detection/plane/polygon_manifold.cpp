@@ -45,6 +45,7 @@ template <int my_sides, int other_corners>
 bool find_axis(const PolygonView& mine, const PolygonView& other, double ox, double oy,
                double alert, double same, Axis& best) {
     const int n = my_sides > 0 ? my_sides : mine.sides;
+    // h = n_k . o - support_k, the height of the other's centre over side k.
     int front = 0;
     double highest = -std::numeric_limits<double>::infinity();
     for (int k = 0; k < n; ++k) {
@@ -57,6 +58,7 @@ bool find_axis(const PolygonView& mine, const PolygonView& other, double ox, dou
         if (base - other.in_radius <= best.separation) continue;
         const Axis axis = over_side<other_corners>(other, k, mine.nx[k], mine.ny[k], base);
         if (!(axis.separation < alert)) return false;
+        // Of equal sides the first one found stays, so that rounding does not choose.
         if (axis.separation > best.separation + same) best = axis;
     }
     return true;
@@ -111,6 +113,7 @@ struct Facing {
 
     ManifoldPoint point(double t, double h, int corner, bool of_incident) const {
         ManifoldPoint p;
+        // corner + t (e_z x n) + (h/2) n, relative to the centre of the first polygon.
         p.x = reference.x[side] - ny * t + 0.5 * h * nx + (flip ? -ox : 0.0);
         p.y = reference.y[side] + nx * t + 0.5 * h * ny + (flip ? -oy : 0.0);
         p.nx = flip ? -nx : nx;
@@ -139,6 +142,7 @@ struct Facing {
 /// Fraction of the way from a to b at which the incident side is nearest to an end of the
 /// reference.
 double nearest_share(const Place& a, const Place& b, double end) {
+    // The s in [0, 1] that minimises |a + s (b - a) - (end, 0)|^2.
     const double t = b.t - a.t, h = b.h - a.h;
     return std::clamp(((end - a.t) * t - a.h * h) / (t * t + h * h), 0.0, 1.0);
 }
@@ -181,6 +185,7 @@ Overlap overlap(const Place& p, const Place& q, double length, double same) {
 ManifoldPoint first_point(const Facing& f, const Place& p, const Place& q, const Overlap& o) {
     if (!o.outside) return f.end_point(p.t, p.h, p, false);
     const int end_corner = f.end_corner(o.beyond);
+    // 0 or 1: the nearest place of the incident side is one of its corners.
     const double share = p.h > 0.0 ? nearest_share(p, q, o.start) : 0.5;
     // Sides that lie flat on each other to rounding: the end of the overlap is the contact point.
     if (o.shared && share > 0.0 && share < 1.0)
@@ -220,6 +225,7 @@ Manifold clip(const Facing& f, int lowest, double alert, double same) {
     if (!(manifold.points[0].gap < alert)) return manifold;
     manifold.count = 1;
     const double length = common_length(f, q, o);
+    // Sides that share no length touch in one point.
     if (!o.shared || !(length > same)) return manifold;
     manifold.points[1] = second_point(f, p, q);
     if (!(manifold.points[1].gap < alert)) return manifold;

@@ -33,6 +33,8 @@ void add_point(const WallView& view, const Vec3& normal, double gap, std::int32_
 struct Beside {
     Beside(const Wall& wall, const Vec3& centre) : axis(wall.normal) {
         const Vec3 arm = centre - wall.point;
+        // (rho, h): distance from the axis and height along it. On the axis all directions are
+        // alike.
         at.height = dot(arm, axis);
         const Vec3 across = arm - at.height * axis;
         at.radius = norm(across);
@@ -55,6 +57,7 @@ void add_other_sides(const WallView& view, const Beside& beside, const NearestPl
     std::int32_t feature = near.end + 1;
     for (const Vec3& outwards : others) {
         feature += features_of_a_place;
+        // From the same circle of the surface, in another direction from the axis, to the centre.
         const Vec3 offset = beside.at.radius * beside.outwards - foot.radius * outwards +
                             (beside.at.height - foot.height) * beside.axis;
         const double distance = norm(offset), gap = distance - radius;
@@ -66,6 +69,8 @@ void add_other_sides(const WallView& view, const Beside& beside, const NearestPl
 /// From the centre to the opposite side of a round wall.
 bool may_fit(const WallView& view, const Beside& beside, const NearestPlace& near) {
     const BesideAxis foot = beside.at - near.distance * near.normal;
+    // Only from inside, where the normal points to the axis. The far side is at least rho +
+    // rho_foot away.
     return foot.radius > 0.0 && near.normal.radius < 0.0 &&
            beside.at.radius + foot.radius - view.bodies.radius[view.body] < view.alert;
 }
@@ -87,6 +92,7 @@ void sphere_rectangle(const WallView& view, std::vector<ContactPoint>& points) {
     const Wall& wall = view.wall;
     const Vec3 arm = view.bodies.position[view.body] - wall.point;
     const Vec3 across = cross(wall.normal, wall.side);
+    // The nearest place of a rectangle is the centre with x and y clamped to it.
     const double x = dot(wall.side, arm), y = dot(across, arm), height = dot(wall.normal, arm);
     const double beyond_x = x - std::clamp(x, -wall.half_length, wall.half_length);
     const double beyond_y = y - std::clamp(y, -wall.half_width, wall.half_width);
@@ -95,6 +101,8 @@ void sphere_rectangle(const WallView& view, std::vector<ContactPoint>& points) {
     const double distance = inside ? std::abs(height) : norm(offset);
     const double gap = distance - view.bodies.radius[view.body];
     if (!(gap < view.alert)) return;
+    // A centre above the rectangle is held on its side; beside it the contact is with an edge or
+    // corner.
     const Vec3 normal =
         inside ? (height < 0.0 ? -1.0 : 1.0) * wall.normal : (1.0 / distance) * offset;
     add_point(view, normal, gap, inside ? 0 : 1, points);

@@ -28,6 +28,7 @@ struct OnAxis {
 
 bool same_axis(const Wall& from, const Wall& wall, double tolerance) {
     const Vec3 apart = wall.point - from.point;
+    // Parallel axes, either way round, and no offset across them.
     return norm(cross(from.normal, wall.normal)) <= same_rim &&
            norm(apart - dot(apart, from.normal) * from.normal) <= tolerance;
 }
@@ -65,6 +66,7 @@ void WallJoints::join_pair(const std::vector<Wall>& walls, std::size_t i, std::s
         Rim& rim = rims_[i][end];
         const std::size_t before = rim.others.size();
         join(rim, own.meridian[end], other, on, tolerance);
+        // Of the walls at a rim, the one with the lowest index keeps the point.
         if (j < i && rim.others.size() > before) rim.first = false;
     }
 }

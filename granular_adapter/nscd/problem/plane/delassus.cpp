@@ -82,6 +82,7 @@ Delassus::Delassus(const ContactProblem& problem)
 }
 
 Impulses Delassus::apply(const Impulses& r) const {
+    // W r is what r alone does: the same sums with v_free = 0.
     const std::vector<Twist> rest(problem_.free.size());
     const std::vector<Twist> v =
         body_velocities({problem_.bodies, rest, problem_.contacts, 0.0}, r);

@@ -22,6 +22,7 @@ End end_of(const Contact& contact, std::int32_t index, bool at_b) {
     End end{index, {}};
     for (int d = 0; d < 2; ++d) {
         const Vec3& e = d == 0 ? contact.normal : contact.tangent;
+        // H_k of this body: +r acts on b, -r on a.
         end.direction[d] = {sign * e[0], sign * e[1], sign * cross_z(arm, e)};
     }
     return end;
@@ -33,6 +34,7 @@ std::vector<std::vector<End>> ends_by_body(const ContactProblem& problem,
     std::vector<std::vector<End>> ends(bodies.size());
     const auto add = [&](std::int32_t body, std::int32_t k, bool at_b) {
         if (body < 0) return;
+        // An immovable body couples no contacts: M^-1 = 0.
         if (!is_immovable(bodies[body])) ends[body].push_back(end_of(problem.contacts[k], k, at_b));
     };
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(problem.contacts.size()); ++k) {
@@ -45,6 +47,7 @@ std::vector<std::vector<End>> ends_by_body(const ContactProblem& problem,
 void add_share(Coupling& w, const BodyMobility& body, const End& row, const End& column) {
     const PlanarVector by_n = body * column.direction[0], by_t = body * column.direction[1];
     for (int d = 0; d < 2; ++d) {
+        // W_kj = H_k^T M^-1 H_j, column by column.
         w.by_n[d] += dot(row.direction[d], by_n);
         w.by_t[d] += dot(row.direction[d], by_t);
     }
@@ -94,6 +97,7 @@ DelassusMatrix::DelassusMatrix(const ContactProblem& problem) {
         for (const std::int32_t body : {contact.a, contact.b})
             if (body >= 0 && !ends[body].empty())
                 collect(row, blocks.bodies()[body], ends[body], k);
+        // Stable: two contacts that share both bodies get their shares in the order a, b.
         std::stable_sort(row.begin(), row.end());
         for (const RowEntry& entry : row) {
             const bool same = std::int64_t(column.size()) > row_start.back() &&

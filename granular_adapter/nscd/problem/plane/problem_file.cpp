@@ -18,6 +18,7 @@ std::string digits(double value) {
 
 void write_block(std::ostream& out, std::int64_t number, const Coupling& w) {
     out << number << '\n';
+    // Column by column: W_nn, W_tn, W_nt, W_tt.
     for (const double value : {w.by_n[0], w.by_n[1], w.by_t[0], w.by_t[1]})
         out << digits(value) << '\n';
 }

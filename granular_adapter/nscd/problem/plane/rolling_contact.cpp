@@ -33,6 +33,7 @@ struct Piece {
         } else if (m_free) {
             base[1] = -b.roll / w.rr, slope[1] = -edge.roll / w.rr;
         }
+        // u_n = b_n + W_nt t_0 + W_nr m_0 + rise n = 0
         const double rise = w.nn + w.nt * slope[0] + w.nr * slope[1];
         const double n = -(b.n + w.nt * base[0] + w.nr * base[1]) / rise;
         return in_plane(n, base[0] + slope[0] * n, base[1] + slope[1] * n);
@@ -50,6 +51,8 @@ ContactVector best_of_nine(const Block& w, const ContactVector& b, double mu, do
             const ContactVector f = rolling_natural_map(r, velocity(w, b, r), mu, rho, s, length);
             const double error = (f.n * f.n + f.t * f.t + f.roll * f.roll) / (r.n * r.n);
             if (error < least) least = error, best = r;
+            // A relative error of 1e-14: solved to rounding, so that the other pieces need not be
+            // tried.
             if (error < 1e-28) return best;
         }
     return best;
@@ -68,6 +71,7 @@ ContactVector solve_rolling_contact(const Block& w, const ContactVector& b, doub
     if (b.n >= 0.0) return {};
     if (w.nt != 0.0 || w.nr != 0.0)
         return within_limits(best_of_nine(w, b, friction, rolling), friction, rolling);
+    // W_nt = W_nr = 0: the normal part is a problem of its own, and gives the box of (t, m).
     const double n = -b.n / w.nn;
     const Plane rest = solve_on_box(w, {b.t, b.roll}, friction * n, rolling * n);
     return in_plane(n, rest[0], rest[1]);

@@ -40,6 +40,7 @@ void subtract_product(Eigen::Matrix3d& c, const Eigen::Matrix3d& a, const Eigen:
 template <class Take>
 void each_block(const ScaledContact& c, const Eigen::Matrix3d& d, const Take& take) {
     using Block = Eigen::Matrix3d;
+    // A = (at_b^T, -at_a^T): the impulse acts on a with the opposite sign.
     const Block by_b = d.lazyProduct(c.at_b);
     take(0, c.b, c.b, Block(c.at_b.transpose().lazyProduct(by_b)));
     if (c.a < 0) return;
@@ -85,6 +86,7 @@ void BodyFactors::find_fill() {
     first_.assign(1, 0);
     for (std::size_t j = 0; j < n; ++j) {
         for (const std::int32_t child : children[j])
+            // The first row of the child is j itself.
             rows[j].insert(rows[j].end(), rows[child].begin() + 1, rows[child].end());
         std::sort(rows[j].begin(), rows[j].end());
         rows[j].erase(std::unique(rows[j].begin(), rows[j].end()), rows[j].end());
@@ -98,6 +100,9 @@ void BodyFactors::find_updates() {
     for (std::size_t j = 0; j + 1 < first_.size(); ++j)
         for (std::int32_t e = first_[j]; e < first_[j + 1]; ++e)
             for (std::int32_t f = first_[j]; f < first_[j + 1]; ++f)
+                // Block (e, f) for each pair of rows of the column: J has a symmetric pattern, so
+                // that the columns of U are the rows of L. In the order in which eliminate() takes
+                // them.
                 target_.push_back(place(row_[e], row_[f]));
 }
 
@@ -130,10 +135,13 @@ bool BodyFactors::eliminate() {
     for (std::size_t j = 0; j < n; ++j) {
         const double determinant = blocks_[j].determinant();
         if (!(std::abs(determinant) > 0.0) || !std::isfinite(determinant)) return false;
+        // det J is the product of the determinants of the pivots; the order of the bodies, the same
+        // for rows and columns, does not change it.
         if (determinant < 0.0) sign_ = -sign_;
         const Block inverse = blocks_[j].inverse();
         blocks_[j] = inverse;
         for (std::int32_t e = first_[j]; e < first_[j + 1]; ++e) {
+            // L_ej = J_ej J_jj^-1,   J_ef -= L_ej U_jf
             lower[e] = Block(lower[e].lazyProduct(inverse));
             for (std::int32_t f = first_[j]; f < first_[j + 1]; ++f)
                 subtract_product(blocks_[target_[update++]], lower[e], upper[f]);
@@ -152,11 +160,13 @@ Vector BodyFactors::substitute(const Vector& right) const {
     for (std::size_t j = 0; j < n; ++j) {
         const Eigen::Vector3d pivot = x.segment<3>(3 * static_cast<Eigen::Index>(j));
         for (std::int32_t e = first_[j]; e < first_[j + 1]; ++e)
+            // L x = right, in the order of elimination.
             x.segment<3>(3 * row_[e]) -= lower[e] * pivot;
     }
     for (std::size_t j = n; j-- > 0;) {
         Eigen::Vector3d pivot = x.segment<3>(3 * static_cast<Eigen::Index>(j));
         for (std::int32_t e = first_[j]; e < first_[j + 1]; ++e)
+            // U x = L^-1 right, backwards.
             pivot -= upper[e] * x.segment<3>(3 * row_[e]);
         x.segment<3>(3 * static_cast<Eigen::Index>(j)) = blocks_[j] * pivot;
     }
@@ -169,6 +179,7 @@ Vector BodyFactors::substitute(const Vector& right) const {
 Vector BodyFactors::product(const ContactBlocks& d, const Vector& y) const {
     Vector result = y;
     for (std::size_t k = 0; k < contacts_.size(); ++k)
+        // J y = y + A D A^T y
         contacts_.push(k, d[k] * contacts_.velocity(k, y), result);
     return result;
 }
@@ -177,6 +188,8 @@ Vector BodyFactors::product(const ContactBlocks& d, const Vector& y) const {
 bool BodyFactors::accurate(const ContactBlocks& d) const {
     Vector right = Vector::Zero(3 * static_cast<Eigen::Index>(contacts_.bodies()));
     for (std::size_t k = 0; k < contacts_.size(); ++k)
+        // A D (1, 1, 0): of the kind of right-hand sides that a step has, and as badly scaled where
+        // D is large.
         contacts_.push(k, d[k] * Eigen::Vector3d(1.0, 1.0, 0.0), right);
     const Vector trial = substitute(right);
     return substitute(right - product(d, trial)).norm() <= refinable * trial.norm();
@@ -194,6 +207,7 @@ bool BodyFactors::factorise_pivoting(const ContactBlocks& d) {
     for (std::size_t k = 0; k < contacts_.size(); ++k) each_block(contacts_[k], d[k], add);
     Matrix j(3 * n, 3 * n);
     j.setFromTriplets(entries.begin(), entries.end());
+    // The pattern is that of the contacts, which stay the same.
     if (!analysed_) full_.analyzePattern(j), analysed_ = true;
     full_.factorize(j);
     if (full_.info() != Eigen::Success) return false;

@@ -45,12 +45,15 @@ CentralPath::Prediction CentralPath::prediction() {
     Prediction p;
     p.tangent = system_.tangent();
     const double square = system_.dot(point_, p.tangent, p.tangent);
+    // Without its part along the tangent, so that `length` alone says how far a step goes.
     const auto across = [&](PathChange change) {
         add(change, -system_.dot(point_, p.tangent, change) / square, p.tangent);
         return change;
     };
     p.correction = across(system_.correction());
     p.first = p.tangent;
+    // first = -sign(det J) t/|t|, of unit length: towards smaller z or s, and on through a turning
+    // point, where the determinant and the direction of the parameter change together.
     add(p.first, -1.0 - system_.sign() / std::sqrt(square), p.tangent);
     p.second = across(system_.curvature(p.first));
     return p;
@@ -59,9 +62,12 @@ CentralPath::Prediction CentralPath::prediction() {
 /// Shortens the step until its end is near the curve.
 bool CentralPath::predict(const PathPoint& base, const Prediction& p) {
     for (int k = 0; k < shortenings; ++k, length_ *= 0.7) {
+        // x(l) = x_0 + correction + l first + l^2/2 second
         PathChange change = p.correction;
         add(change, length_, p.first);
         add(change, 0.5 * length_ * length_, p.second);
+        // The series says nothing about the curve where a factor or z would nearly vanish, or s
+        // would pass below zero.
         if (!(base.z + change.z > least_z * base.z) ||
             base.association + change.association < -nearly_coulomb ||
             !(system_.decrease(base, change) < 1.0 - least_left))
@@ -84,9 +90,12 @@ bool CentralPath::correct(const PathPoint& base, const PathChange& tangent, std:
         before = deviation;
         PathChange change = system_.correction();
         const PathChange along = system_.tangent();
+        // A Newton step at constant z and s, moved along the curve until it is normal to the
+        // tangent at the base: at a turning point there may be no solution at this z.
         add(change, -system_.dot(base, tangent, change) / system_.dot(base, tangent, along), along);
         const double most =
             std::max(system_.decrease(point_, change), std::abs(change.z / point_.z));
+        // No factor, nor z, loses more than nine tenths.
         add(point_, std::min(1.0, 0.9 / most), change);
     }
 }
@@ -105,6 +114,8 @@ void CentralPath::enter_next_stage(std::int64_t budget) {
 /// Corrects onto the curve with s = 0 and continues in z. False if that does not converge; then
 /// nothing has changed.
 bool CentralPath::reach_coulomb(std::int64_t budget) {
+    // The point of the last step with s = 0 and the same z is near the curve in z under Coulomb's
+    // law.
     const PathPoint base = point_;
     point_.association = 0.0;
     system_.follow(PathParameter::products);
@@ -133,6 +144,7 @@ bool CentralPath::advance(std::int64_t budget) {
         }
         if (!ready && trial > 0) break;
         // The base is near the curve; without the correction, so is the end of a short enough step.
+        // All zero, of the size of a change.
         p.correction = p.first;
         add(p.correction, -1.0, p.first);
         length_ = ready ? 0.4 * length_ : length;

@@ -51,6 +51,7 @@ class Search {
         CentralPath path(contacts, size);
         std::int64_t counted = 0;
         const auto count = [&] {
+            // A factorisation counts as one iteration, as a sweep does.
             used_ += path.factorisations() - counted;
             counted = path.factorisations();
         };
@@ -68,6 +69,7 @@ class Search {
 
     SolverResult result() {
         best_.iterations = used_;
+        // Quad and max take a pass of their own: only for the point that is returned.
         if (on_path_)
             best_.change = measures(problem_, w_, best_.velocities, best_.impulses, floor_).change;
         return std::move(best_);
@@ -94,11 +96,14 @@ class Search {
     double look(const ScaledContacts& contacts, const PathPoint& point) {
         latest_.impulses.resize(contacts.size());
         for (std::size_t k = 0; k < contacts.size(); ++k)
+            // A point of the path is judged by the same measure as sweeps, in the units of the
+            // problem.
             latest_.impulses[k] = contacts.physical(k, point.r[k]);
         latest_.velocities = body_velocities(problem_, latest_.impulses);
         latest_.residual =
             natural_map_residual(problem_, w_, latest_.velocities, latest_.impulses, floor_);
         latest_.converged = latest_.residual <= settings_.tolerance;
+        // A path does not improve the natural map at every step, so the best point is kept.
         if (latest_.residual < best_.residual) best_ = latest_, on_path_ = true;
         return latest_.residual;
     }

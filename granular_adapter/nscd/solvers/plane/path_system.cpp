@@ -53,10 +53,13 @@ PathSystem::PathSystem(const ScaledContacts& contacts, double size)
     const std::size_t n = contacts.size();
     for (std::size_t k = 0; k < n; ++k) {
         unit_ += contacts[k].free.head<2>().squaredNorm();
+        // One bit per pair: 1 normal, 2 and 4 friction, 8 and 16 rolling.
         has_.push_back((contacts[k].friction > 0.0 ? 7 : 1) | (contacts[k].rolling > 0.0 ? 24 : 0));
     }
     unit_ = std::sqrt(unit_ / static_cast<double>(n));
     const double r = size * unit_;
+    // The start: r = (r_n, 0, 0) with the same r_n everywhere, b = tau/a, and e = E b - u(r), so
+    // that it lies on the curve at z = 1.
     tau_ = r * r;
     start_.r.assign(n, Vector3(r, 0.0, 0.0));
     start_.a.assign(n, {}), start_.b.assign(n, {});
@@ -151,6 +154,7 @@ bool PathSystem::linearise(const PathPoint& at) {
     y_ = bodies_of(contacts_, at.r);
     for (std::size_t k = 0; k < at.r.size(); ++k) {
         stiffness_[k] = stiffness(k);
+        // D = Theta^-1 of J = 1 + A D A^T, column by column.
         for (int d = 0; d < 3; ++d) inverse_[k].col(d) = flexible(k, Vector3::Unit(d));
     }
     return factors_.factorise(inverse_);
@@ -164,12 +168,15 @@ std::vector<Vector3d> PathSystem::solve(const std::vector<Vector3>& right) const
     Vector y = Vector::Zero(y_.size()), unbalanced = y;
     double last = 0.0;
     for (int i = 0; i <= most_refinements; ++i) {
+        // With rest = right - Theta r - A^T y and unbalanced = A r - y, both zero at the solution:
+        //     J dy = A Theta^-1 rest + unbalanced,   dr = Theta^-1 (rest - A^T dy)
         for (std::size_t k = 0; k < n; ++k) contacts_.push(k, flexible(k, rest[k]), unbalanced);
         const Vector moved = factors_.solve(unbalanced);
         for (std::size_t k = 0; k < n; ++k)
             step[k] = flexible(k, rest[k] - contacts_.velocity(k, moved));
         if (i > 0) {
             const double change = moved.norm() / y.norm() + std::sqrt(squared(step) / squared(r));
+            // Rounding: another refinement would make it no better.
             if (!(i == 1 || change < halting * last)) break;
             last = change;
         }
@@ -195,6 +202,7 @@ PathChange PathSystem::change(const Target& target, const Row& row) const {
         Pairs b{};
         for (int i = 0; i < 5; ++i)
             if (has(k, i)) b[i] = target(k, i) / at_.a[k][i];
+        // From db = (target - b da)/a and da = G dr: (Theta + A^T A) dr = E (target/a) - row.
         right[k] = velocity_of(k, b, at_.association) - row(k);
     }
     PathChange result;

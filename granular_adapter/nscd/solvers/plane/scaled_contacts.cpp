@@ -16,6 +16,7 @@ using Eigen::Vector3d;
 
 /// Lower triangular L with L L^T = M^-1; the column of an immovable direction is zero.
 Matrix3d root(const BodyMobility& m) {
+    // Cholesky's factor; a semi-definite M^-1 has zero pivots.
     const auto over = [](double value, double pivot) { return pivot > 0.0 ? value / pivot : 0.0; };
     Matrix3d l = Matrix3d::Zero();
     l(0, 0) = std::sqrt(m.xx);
@@ -34,6 +35,8 @@ Matrix3d rows(const Contact& contact, const Vec3& arm, const BodyMobility& body,
     h.row(0) << contact.normal[0], contact.normal[1], cross_z(arm, contact.normal);
     h.row(1) << contact.tangent[0], contact.tangent[1], cross_z(arm, contact.tangent);
     h.row(2) << 0.0, 0.0, scales.length;
+    // A^T = H^T L/sqrt(W_nn), so that (A^T A)_nn = 1: velocities are divided by sqrt(W_nn), and
+    // impulses multiplied.
     return h * root(body) / scales.impulse;
 }
 
@@ -50,6 +53,7 @@ ScaledContacts::ScaledContacts(const ContactProblem& problem, const Delassus& w)
         scaled.impulse = std::sqrt(block.nn);
         scaled.length = block.rr > 0.0 ? rolling_length(block) : 0.0;
         scaled.friction = contact.friction;
+        // |m| <= rolling r_n, with the moment over `length` in the units of an impulse.
         scaled.rolling = block.rr > 0.0 ? contact.rolling / scaled.length : 0.0;
         scaled.at_b = rows(contact, contact.arm_b, w.bodies()[contact.b], scaled);
         if (contact.a >= 0)

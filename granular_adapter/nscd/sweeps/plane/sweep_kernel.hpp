@@ -97,6 +97,8 @@ struct Met {
 
 template <class Rows>
 TURBIDITE_INLINE Real<Rows::width> normal_velocity(const Rows& row, const Met<Rows>& met) {
+    // u_n = n . (v_b - v_a) + (arm_b x n) w_b - (arm_a x n) w_a + b_n; without the arms where they
+    // are along n
     const Real<Rows::width> along = met.nx * met.dx + met.ny * met.dy;
     if constexpr (requires { row.arm_bn; })
         return along + load(row.arm_bn) * met.b.spin - load(row.arm_an) * met.a.spin +
@@ -114,6 +116,7 @@ TURBIDITE_INLINE R tangential_velocity(const Rows& row, const Met<Rows>& met) {
 /// v += M^-1 H d for bodies with isotropic mobility; d = (dn, dt) along n and t.
 template <class Rows, class R>
 TURBIDITE_INLINE void push(const Rows& row, Met<Rows>& met, const R& dn, const R& dt) {
+    // p = dn n + dt t with t = (-n_y, n_x): v += p/m, w += (arm x t) dt/I on b, the opposite on a
     const R px = met.nx * dn - met.ny * dt, py = met.ny * dn + met.nx * dt;
     met.a.x -= met.a.inverse_mass * px;
     met.a.y -= met.a.inverse_mass * py;

@@ -37,6 +37,7 @@ template <int lanes>
 void fill(DiscRows<lanes>& rows, int lane, const PackedContact& packed) {
     fill_base(rows, lane, packed);
     const Contact& contact = packed.contact;
+    // Arms are along n: r_n turns no body, and r_t changes the spin by (arm x t) r_t/I.
     rows.arm_a.v[lane] = cross_z(contact.arm_a, contact.tangent);
     rows.arm_b.v[lane] = cross_z(contact.arm_b, contact.tangent);
     rows.turn_a.v[lane] = packed.a.ss * rows.arm_a.v[lane];
@@ -49,6 +50,7 @@ template <int lanes>
 void fill(RollingDiscRows<lanes>& rows, int lane, const PackedContact& packed) {
     fill(static_cast<DiscRows<lanes>&>(rows), lane, packed);
     const Block& w = packed.w;
+    // W_rr = 1/I_a + 1/I_b is zero where neither body can rotate: then there is no moment.
     const double inverse_rr = w.rr > 0.0 ? 1.0 / w.rr : 0.0;
     rows.rolling.v[lane] = lever(packed);
     rows.roll.v[lane] = packed.r.roll;
@@ -57,6 +59,7 @@ void fill(RollingDiscRows<lanes>& rows, int lane, const PackedContact& packed) {
     rows.tt.v[lane] = w.tt;
     rows.tr.v[lane] = w.tr;
     rows.rr.v[lane] = w.rr;
+    // A = W_tt - W_tr^2/W_rr: the response along t while the moment keeps the spins equal.
     rows.inverse_a.v[lane] = 1.0 / (w.tt - w.tr * w.tr * inverse_rr);
     rows.inverse_rr.v[lane] = inverse_rr;
     rows.length.v[lane] = w.rr > 0.0 ? rolling_length(w) : 1.0;
@@ -74,6 +77,7 @@ void fill(GeneralRows<lanes>& rows, int lane, const PackedContact& packed) {
     const double arm_bt = cross_z(contact.arm_b, contact.tangent);
     rows.arm_an.v[lane] = arm_an, rows.arm_at.v[lane] = arm_at;
     rows.arm_bn.v[lane] = arm_bn, rows.arm_bt.v[lane] = arm_bt;
+    // t = e_z x n = (-n_y, n_x)
     const PlanarVector an = answer(packed.a, x, y, arm_an), at = answer(packed.a, -y, x, arm_at);
     const PlanarVector bn = answer(packed.b, x, y, arm_bn), bt = answer(packed.b, -y, x, arm_bt);
     rows.a_nx.v[lane] = an.x, rows.a_ny.v[lane] = an.y, rows.a_ns.v[lane] = an.spin;
@@ -82,6 +86,7 @@ void fill(GeneralRows<lanes>& rows, int lane, const PackedContact& packed) {
     rows.b_tx.v[lane] = bt.x, rows.b_ty.v[lane] = bt.y, rows.b_ts.v[lane] = bt.spin;
     rows.nn.v[lane] = w.nn, rows.nt.v[lane] = w.nt, rows.tt.v[lane] = w.tt;
     rows.inverse_nn.v[lane] = 1.0 / w.nn;
+    // A = W_tt - W_nt^2/W_nn of the stick trial, and W_nn + s mu W_nt of sliding (one_contact.hpp).
     rows.inverse_a.v[lane] = 1.0 / (w.tt - w.nt * w.nt / w.nn);
     rows.inverse_forward.v[lane] = 1.0 / (w.nn + contact.friction * w.nt);
     rows.inverse_backward.v[lane] = 1.0 / (w.nn - contact.friction * w.nt);

@@ -142,6 +142,8 @@ TURBIDITE_INLINE void add_map(PassSums<width>& sums, const R& rn, const Vector<R
 template <class R>
 TURBIDITE_INLINE R nearest_normal(const R& n, const R (&size)[3], const R (&slope)[3]) {
     R largest{};
+    // The limits in a set are reached: n = (x_n + sum slope |x|)/(1 + sum slope^2), the largest of
+    // all sets.
     for (unsigned set = 0; set < 8; ++set) {
         R sum = n, square = R{} + 1.0;
         for (unsigned i = 0; i < 3; ++i)
@@ -196,6 +198,7 @@ template <class Rows, class R>
 TURBIDITE_INLINE Vector<R> next_moment(const Rows& row, const Vector<R>& normal, const R& n,
                                        const Vector<R>& w) {
     const Vector<R> old = load(row.mx, row.my, row.mz);
+    // m - w/W_rr would stop the relative spin; each part is shortened to its limit.
     const Parts<R> wanted = parts(old - load(row.inverse_rr) * w, normal);
     return clipped(wanted.across, R(load(row.rolling) * n)) +
            clipped(wanted.along, R(load(row.torsion) * n));
@@ -224,6 +227,8 @@ TURBIDITE_INLINE Normal<R> solve_normal(const Rows& row, const R& rn, const R& u
     const R zero{};
     if constexpr (requires { row.film_cutoff; }) {
         const R offset = load(row.film_offset), q = load(row.film_q), a = load(row.film_a);
+        // b = u_n - W_nn r_n, then a sigma^2 + (p - sigma_b) sigma - q = 0 (film.hpp). Of the two
+        // forms of the root the one is taken that adds numbers of one sign.
         const R b = un - load(row.nn) * rn, free = b + offset;  // sigma_b
         const R p = load(row.film_p) - free;
         const R size = root(larger(R(p * p + 4.0 * a * q), zero));
@@ -262,6 +267,8 @@ TURBIDITE_INLINE void update(Rows& row, SphereBody* bodies, PassSums<Rows::width
     const R rn = load(row.rn), mu = load(row.friction), inverse_nn = load(row.inverse_nn);
     const Vector<R> rt = load(row.rx, row.ry, row.rz);
 
+    // With the arms l_a = r_a n and l_b = -r_b n:
+    //    u = v_b - v_a - (r_a w_a + r_b w_b) x n + b
     const Vector<R> apart = vb.rate - va.rate;
     const R along = product(normal, apart);
     const R un = along + load(row.bias_n);
@@ -277,12 +284,16 @@ TURBIDITE_INLINE void update(Rows& row, SphereBody* bodies, PassSums<Rows::width
         add_turning_map(row, sums, normal, un, ut, wb.rate - wa.rate);
     if constexpr (measure && !turns) add_map(sums, rn, rt, un, ut, mu, inverse_nn);
 
+    // r_n' = max(r_n - u_n/W_nn, 0), with a film the root of its equation;
+    // r_t' = r_t - u_t/W_tt, shortened to mu times what the contact carries of r_n'
     const Normal<R> n = solve_normal(row, rn, un);
     const Vector<R> t = clipped(rt - load(row.inverse_tt) * ut, R(mu * n.contact));
     if constexpr (measure && filmed)
         add_filmed_map(row, sums, normal, n, t, Vector<R>(wb.rate - wa.rate));
     if constexpr (measure) count_loaded(sums, n.impulse);
 
+    // b: v += p/m, w += l_b x p/I;   a: v -= p/m, w -= l_a x p/I
+    // l_a and l_b are opposite, so both spins change in the same sense.
     const Vector<R> dt = t - rt;
     const Vector<R> push = R(n.impulse - rn) * normal + dt, twist = cross(normal, dt);
     va.rate = va.rate - va.inverse * push;

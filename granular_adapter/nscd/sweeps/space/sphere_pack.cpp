@@ -26,6 +26,7 @@ void fill(SphereRows<lanes>& rows, int lane, const SphereToPack& packed) {
     rows.rx.v[lane] = tangential[0];
     rows.ry.v[lane] = tangential[1];
     rows.rz.v[lane] = tangential[2];
+    // l_a = r_a n, l_b = -r_b n: two positive lengths stand for the arms.
     rows.arm_a.v[lane] = dot(contact.arm_a, contact.normal);
     rows.arm_b.v[lane] = -dot(contact.arm_b, contact.normal);
     rows.inverse_nn.v[lane] = 1.0 / packed.w.nn;
@@ -44,6 +45,7 @@ void fill(BiasedSphereRows<lanes>& rows, int lane, const SphereToPack& packed) {
 template <int lanes>
 void fill(TurningSphereRows<lanes>& rows, int lane, const SphereToPack& packed) {
     fill(static_cast<BiasedSphereRows<lanes>&>(rows), lane, packed);
+    // Neither body can rotate: no moment has an effect, and limits of zero leave it at zero.
     const bool rotates = packed.w.rr > 0.0;
     rows.rolling.v[lane] = rotates ? packed.contact.rolling : 0.0;
     rows.torsion.v[lane] = rotates ? packed.contact.torsion : 0.0;
@@ -56,6 +58,7 @@ void fill(TurningSphereRows<lanes>& rows, int lane, const SphereToPack& packed) 
 
 template <int lanes>
 void fill_film(FilmSphereRows<lanes>& rows, int lane, const Film& film, double nn) {
+    // Coefficients of the quadratic (film.hpp), constant in a solve.
     const FilmEquation equation(film, nn);
     rows.nn.v[lane] = nn;
     rows.film_a.v[lane] = equation.a;
