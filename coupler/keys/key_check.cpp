@@ -153,7 +153,9 @@ void check_entry(const KeyTable& table, const CaseEntry& entry, int dimension, S
     const KeySpec* found = find_key(table, entry.key);
     if (found == nullptr) return problems.push_back(unknown_key(table, entry));
     const bool optional = found->need == Need::optional || found->dimension == 3;
+    // `key:` without a value is as good as no key, where there need not be one.
     if (entry.is_null && optional) return;
+    // Before its value is looked at: in space a key may have other numbers, defaults and words.
     const KeySpec spec = in_dimension(*found, dimension);
     const KeySpec* key = &spec;
     CaseProblem problem = problem_of(entry, *key);
@@ -213,6 +215,7 @@ CheckedKeys check_keys(const KeyTable& table, const CaseEntries& entries) {
     const int dimension = dimension_of(entries);
     for (const CaseEntry& entry : entries.entries)
         check_entry(table, entry, dimension, checked.settings, checked.problems);
+    // Before conditional keys are asked for: whether they are needed may depend on defaults.
     fill_defaults(table, entries, dimension, checked.settings);
     for (const KeySpec& key : table)
         if (is_needed(key, checked.settings) && entries.find(key.name) == nullptr)

@@ -41,6 +41,7 @@ IntercommChannel::IntercommChannel(MPI_Comm intercomm) : intercomm_(intercomm) {
 }
 
 void IntercommChannel::send(int peer, Bytes bytes) {
+    // MPI counts in int: 2 GB, some eight million grains.
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw std::length_error("a frame of " + std::to_string(bytes.size()) +
                                 " bytes is more than MPI sends at once; use more ranks");
@@ -48,8 +49,10 @@ void IntercommChannel::send(int peer, Bytes bytes) {
     Pending& frame = pending_.emplace_back();
     frame.bytes = std::move(bytes);
     frame.attended_until = attended_until(frame.bytes.size(), slow_sending);
+    // The list keeps the bytes in place until MPI has read them (flushed()).
     PMPI_Isend(frame.bytes.data(), static_cast<int>(frame.bytes.size()), MPI_BYTE, peer, frame_tag,
                intercomm_, &frame.request);
+    // After MPI has the frame: whoever wakes up must find it.
     bells_[static_cast<std::size_t>(peer)].ring();
 }
 
@@ -77,6 +80,7 @@ void IntercommChannel::begin_receiving() {
         int arrived = 0;
         MPI_Message message = MPI_MESSAGE_NULL;
         MPI_Status status;
+        // A matched probe: the frame that was measured is the one that is received.
         PMPI_Improbe(MPI_ANY_SOURCE, frame_tag, intercomm_, &arrived, &message, &status);
         if (!arrived) return;
         int size = 0;
