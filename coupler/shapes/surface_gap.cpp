@@ -76,7 +76,7 @@ double surface_gap(const PlacedOutline& one, const PlacedOutline& other) {
     if (other.corners.empty()) return gap_to_disc(one.corners, other);
     const double depth =
         std::max(separation(one.corners, other.corners), separation(other.corners, one.corners));
-    // In the plane the axes of overlapping convex polygons are the normals of either.
+    // In the plane the normals of both are all the axes that can separate convex polygons.
     if (depth <= 0.0) return depth;
     return std::min(least_distance(one.corners, other.corners),
                     least_distance(other.corners, one.corners));

@@ -25,6 +25,7 @@ int cells_along(double length, double radius, double edge) {
 }  // namespace
 
 double SpaceLattice::densest() const {
+    // phi = N (pi/6) D^3 / a^3, with D = 1
     return std::numbers::pi / 6.0 * static_cast<double>(sites.size()) / (edge * edge * edge);
 }
 
@@ -52,6 +53,7 @@ const SpaceLattice& space_lattice(const std::string& name) {
 // Layer by layer from below, so that ids ascend with height.
 Packing lattice_sites(const SpaceLattice& lattice, const PackingRegion& region, double radius,
                       double compacity) {
+    // a (phi_densest/phi)^(1/3), of spheres of diameter 2 R
     const double edge =
         2.0 * radius * lattice.edge * std::cbrt(std::max(1.0, lattice.densest() / compacity));
     const int nx = cells_along(region.width, radius, edge);
@@ -65,6 +67,8 @@ Packing lattice_sites(const SpaceLattice& lattice, const PackingRegion& region, 
                     const Vec3 place = region.corner + Vec3{radius + edge * (i + site[0]),
                                                             radius + edge * (j + site[1]),
                                                             radius + edge * (k + site[2])};
+                    // The last cell along an axis has its first site inside, but not all of them;
+                    // in a cylinder any may be outside.
                     if (!region.holds(place, radius)) continue;
                     PlacedGrain grain{.id = static_cast<GrainId>(grains.size()),
                                       .x = place[0],
