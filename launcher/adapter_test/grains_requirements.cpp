@@ -33,11 +33,13 @@ const std::string near_a_side = "id,x,y,vx\n1,15,5,5\n2,4,8,0\n3,8,8,0\n";
 std::vector<double> expected_velocity(const Trial& trial) {
     const Settings& s = trial.settings;
     const double g = s.real("run.gravity"), dt = s.real("run.step");
+    // (rho_r - 1) pi/4 with rho_r = 1.5 and D = rho_f = 1
     const double inertia = 0.5 * std::numbers::pi / 4.0;
     const bool wet = s.flag("fluid.enabled");
     const double share = wet ? 1.0 / (1.0 + partner_drag * dt / inertia) : 1.0;
     std::vector<double> velocity{0.0};
     for (std::int64_t k = 0; k < s.integer("run.windows"); ++k)
+        // cM (U^{n+1} - U^{n+4/5}) = -gamma dt U^{n+1}
         velocity.push_back(share * (velocity.back() - g * dt));
     return velocity;
 }

@@ -39,7 +39,7 @@ double forecast_courant(const ResolvedCase& resolved) {
     const double speed = std::max(speed_of_a_fall(scales, settings.real("grains.density_ratio")),
                                   fastest_grain(resolved));
     const double cell = scales.diameter / settings.real("fluid.cells_per_diameter");
-    // |u| dt/h of the fastest grain: fluid in gaps is faster, so it is a lower bound.
+    // |u| dt/h of the fastest grain; the flow around it may be faster.
     return speed * settings.real("run.step") / cell;
 }
 

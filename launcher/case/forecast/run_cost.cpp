@@ -147,8 +147,9 @@ double grains_time(const ResolvedCase& resolved) {
 /// Messages of a window that wait for the one before: call_order.cpp.
 double messages_in_turn(const ResolvedCase& resolved) {
     const SchemeEntry& scheme = scheme_of(resolved);
-    // window, kick, state, and what the launcher of the next window adds.
     if (scheme.fluid.empty()) return 4.0;
+    // split: window, motion, constraint, kicks, kick, state. With rounds: a round is contact_input,
+    // motion, constraint, response; around them bodies, response, accept, kicks, kick, state.
     return scheme.has_rounds() ? 6.0 + 4.0 * rounds(resolved) : 6.0;
 }
 
@@ -159,7 +160,7 @@ bool in_yade(const Settings& settings) {
 }  // namespace
 
 double WindowForecast::seconds() const {
-    // The coupler and the messages are in nobody's shadow: all others wait for them.
+    // All programs wait for the coupler and for messages.
     return (side_by_side ? std::max(fluid, grains) : fluid + grains) + coupler + messages;
 }
 

@@ -25,7 +25,6 @@ int largest_prime_factor(int n) {
 }
 
 int good_transform_length(int n) {
-    // Upwards: a box may be a little larger than asked for, but not smaller.
     while (largest_prime_factor(n) > 7) ++n;
     return n;
 }
@@ -34,7 +33,7 @@ std::vector<std::string> slow_transforms(const Settings& settings) {
     const auto size = real_list("domain.size", settings.text("domain.size"));
     const double across = settings.real("fluid.cells_per_diameter");
     std::vector<std::string> slow;
-    // x and, in space, z: there is no transform along y (separable_solve, eliminations).
+    // x and, in space, z: systems along y are solved by elimination, for which any number will do.
     for (std::size_t axis = 0; axis < size.size(); axis += 2) {
         const int cells = static_cast<int>(std::lround(size[axis] * across));
         const int factor = largest_prime_factor(cells);
