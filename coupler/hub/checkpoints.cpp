@@ -97,7 +97,7 @@ Manifest Checkpoints::described(const CouplerState& state) const {
     Manifest manifest;
     manifest.case_hash = settings_.text("run.hash");
     manifest.windows = state.windows;
-    // [t_c], for people.
+    // [t_c], for those who read the file.
     manifest.time = static_cast<double>(state.windows) * run_.step / run_.time;
     manifest.settings = settings_;
     return manifest;

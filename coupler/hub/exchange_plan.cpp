@@ -40,7 +40,7 @@ std::optional<double> sum_given(std::optional<double> a, std::optional<double> b
 }
 
 // Counts and work add up, since every contact, film and grain is reported by one rank. Sweeps are
-// made by all ranks together and times pass side by side: the largest. NaN survives (largest).
+// made by all ranks together, and their times run in parallel: the largest. NaN survives (largest).
 void add(ContactReport& total, const ContactReport& share) {
     total.contacts += share.contacts;
     total.iterations = std::max(total.iterations, share.iterations);
@@ -111,7 +111,7 @@ Motion ExchangePlan::gather(std::vector<Motion> shares) {
     // Before the first share is moved from, below.
     const ContactReport report = report_of(shares);
     owners_ = shares.size();
-    // A single rank keeps its own order, without a copy of the grains; its sums are its own anyway.
+    // A single rank keeps its own order, without a copy of the grains.
     Motion all = owners_ == 1 ? std::move(shares.front()) : merged(shares);
     if (owners_ == 1) owner_.assign(all.grains.size(), 0);
     all.report = report;

@@ -102,8 +102,7 @@ std::string GrainRoster::Entry::difference(const GrainState& grain) const {
 void GrainRoster::check_bodies(const std::vector<Motion>& shares, const Arrival& arrival) const {
     for (std::size_t rank = 0; rank < shares.size(); ++rank)
         for (const GrainState& grain : shares[rank].grains) {
-            // The entries are those of the population, to rounding (keeps), however often they were
-            // remembered.
+            // Of the last message that was remembered, which had passed the same comparison.
             const Entry& known = present_[places_.at(grain.id)];
             if (known.is_the_same_body(grain)) continue;
             arrival.refuse(
@@ -157,7 +156,7 @@ std::vector<Leaver> GrainRoster::leavers(const Seen& seen) const {
 
 template <class Shares>
 void GrainRoster::check_answers(const Shares& shares, const Arrival& arrival) const {
-    // Answers come in the order of the fluid's ranks, so with several of them this rarely holds.
+    // Holds where one fluid rank answers in the order in which it got the grains.
     if (unchanged(shares)) return;
     const Seen seen = tally(shares, arrival);
     const auto missing = std::count(seen.begin(), seen.end(), nobody);

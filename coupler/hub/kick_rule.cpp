@@ -71,8 +71,7 @@ KickRule::KickRule(const RunValues& run, const ShapeTable& shapes,
 }
 
 const ImmersedBody& KickRule::body_of(const GrainState& grain) {
-    // Volumes and moments of inertia of polygons are sums over their corners: computed once for a
-    // row of equal grains.
+    // Masses and tensors are computed once for a row of equal grains.
     const bool same = last_body_ && grain.shape == last_.shape && grain.radius == last_.radius &&
                       grain.density == last_.density;
     if (!same) {
@@ -92,8 +91,8 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
                                  ", which is unknown");
         const GrainState& grain = before.grains[at];
         const ImmersedBody& immersed = body_of(grain);
-        // The fluid that the multipliers fill into the grain is accelerated with it: its inertia
-        // force belongs to lambda, but not to F_h.
+        // lambda moves the effective inertia M - rho_f V(R_h) alone (shapes/immersed_body.hpp).
+        // F_h, which moves all of M, has the rest of that inertia besides.
         const Vec3 velocity_change = kick.velocity - grain.velocity;
         const Vec3 spin_change = kick.angular_velocity - grain.angular_velocity;
         // F_h = (J_lambda + rho_f V dU) / dt, T_h = (K_lambda + I_f domega) / dt

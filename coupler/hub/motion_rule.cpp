@@ -167,7 +167,7 @@ void MotionRule::check_start(const std::vector<Leaver>& leavers, const Gathered&
         demand("velocity", given.velocity, found.velocity, u);
         demand("angular velocity", given.angular_velocity, found.angular_velocity,
                u / found.radius);
-        // They are warm starts of the case or zero; zero must come back as zero.
+        // A case gives none, and zero must come back as zero: there is nothing to round.
         demand("contact impulse", given.contact_impulse, found.contact_impulse, 0.0);
         demand("contact angular impulse", given.contact_angular_impulse,
                found.contact_angular_impulse, 0.0);
@@ -357,7 +357,6 @@ MotionDefect MotionRule::check_state(const Window& window, const Motion& before,
         state.arrival.refuse(state.owners[at], text(grain, found, can, window.step),
                              how_grains_move);
     }
-    // Last, so that a grain that is there and wrong is told before one that has gone.
     check_leavers(leavers, before, state.arrival, most);
     return largest;
 }

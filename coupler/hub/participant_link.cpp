@@ -93,8 +93,7 @@ void ParticipantLink::take_in(int rank, FramedMessage message) {
 }
 
 void ParticipantLink::raise(int rank, const Verdict& verdict) const {
-    // Not from this program's mouth: a code of success, or one that is no exit code, is a failed
-    // one.
+    // The number is another program's: success, or one that is no exit code, counts as a failure.
     const ExitCode code = received_code(verdict.exit_code);
     const bool strange = static_cast<std::int64_t>(code) != verdict.exit_code;
     throw Failure(code, fmt::format("{}: {}{}", who(rank), received_text(verdict.reason),

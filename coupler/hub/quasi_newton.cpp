@@ -26,8 +26,8 @@ Eigen::VectorXd QuasiNewton::step(const Eigen::VectorXd& residual) {
         }
         Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(of_residuals);
         qr.setThreshold(independent);
-        // Least squares of |r_k + sum_i a_i (r_i - r_k)|; with pivoting, since late columns are
-        // often nearly dependent.
+        // The a_i of least |r_k + sum_i a_i (r_i - r_k)|; pivoting leaves out columns below the
+        // threshold.
         next += of_images * qr.solve(-residual);
     }
     residuals_.push_back(residual);

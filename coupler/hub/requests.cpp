@@ -16,8 +16,8 @@ bool RequestFiles::taken(const char* name) const {
 std::optional<ExitCode> RequestFiles::stop() const {
     int code = static_cast<int>(ExitCode::interrupted);
     {
-        // A text that is no number leaves the code at its default (or 0, which is not `terminated`
-        // either).
+        // A text that is no number gives 0, and an empty file leaves the default: neither is
+        // `terminated`.
         std::ifstream file(folder_ / stop_file);
         if (file) file >> code;
     }

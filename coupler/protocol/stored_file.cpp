@@ -117,7 +117,7 @@ void PieceWriter::write(const void* from, std::size_t bytes) {
 }
 
 StoredFile PieceWriter::finish() {
-    // A full disk or a lost server may show only here, after all writes have succeeded.
+    // An error of the disk may show only here, after all writes have succeeded.
     if (!open_->out.sync()) throw open_->failure();
     open_->file.crc32 = static_cast<std::int64_t>(open_->crc.checksum());
     return open_->file;
