@@ -209,7 +209,7 @@ void ScriptedFluid::correct(const Window& window, const std::vector<GrainState>&
             grains_.back().pushed = grain.contact_impulse;
             grains_.back().angular_pushed = grain.contact_angular_impulse;
         }
-        // The grains of a window come in the same order each time, those of this rank too.
+        // They must come in the same order each time: the place alone says which is which.
         push(grains_.at(at++), grain);
     }
 }

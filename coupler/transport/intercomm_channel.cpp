@@ -17,11 +17,11 @@ namespace {
 
 constexpr int frame_tag = 7;
 
-// MPI moves a long frame in small pieces, and each end only while it is inside MPI: an end that
-// slept 400 us after every few pieces would bring the rate down to 0.2 GB/s. A sender attends to
-// its frame for the time that it takes at this rate and that the receiver may still sleep, after
-// which the receiver must be busy. One who receives knows that the sender is there, unless it has
-// died in between.
+// MPI moves a long frame in small pieces, and each end only while it is inside MPI: where both ends
+// slept after every few pieces, the rate was 0.2 GB/s (docs/decisions/messages.md). A sender
+// attends to its frame for the time that it takes at `slow_sending` and a little more, in which the
+// receiver may wake up; after that the receiver must be busy. One who receives knows that the
+// sender is there, unless it has died in between.
 constexpr double slow_sending = 0.5e9;         // [bytes/s]
 constexpr double slow_receiving = 20e6;        // [bytes/s]
 constexpr double shortest_attention = 500e-6;  // [s]

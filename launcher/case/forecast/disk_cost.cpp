@@ -63,7 +63,7 @@ double bytes_of_slices(const Settings& settings) {
     const auto per_diameter = static_cast<double>(settings.integer("fluid.cells_per_diameter"));
     double cells = 0.0;
     for (const SlicePlane& plane : slices_of(settings))
-        // All cells over the number of layers along the plane's normal.
+        // All cells over the number of equal ones along the plane's normal.
         cells += fluid_cells(settings) / (size.at(plane.axis) * per_diameter);
     return of_slice * cells;
 }

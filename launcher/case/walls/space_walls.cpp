@@ -242,7 +242,8 @@ double distance_to_round(const SpaceForm& form, const Vec3& place) {
     // A ring's axis is a direction only: its meridian runs outward at height 0.
     const double length = form.kind == SpaceWallKind::ring ? 0.0 : norm(form.a);
     const double end = has_second_radius(form.kind) ? form.radius2 : form.radius;
-    // (rho, h) of the point against the meridian, from (r1, 0) to (r1 or r2, |a|).
+    // (rho, h) of the point against the meridian: from (r1, 0) to (r1 or r2, |a|), of a ring to
+    // (r2, 0).
     return nearest_place({{{form.radius, 0.0}, {end, length}}}, {norm(arm - height * axis), height})
         .distance;
 }

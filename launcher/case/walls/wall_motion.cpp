@@ -330,6 +330,7 @@ std::vector<std::string> motion_names(const Settings& s) {
     for (const auto& [key, value] : s.entries()) {
         if (key.rfind(prefix, 0) != 0) continue;
         const std::string name = key.substr(start, key.find('.', start) - start);
+        // Settings are sorted by key: those of one motion follow each other.
         if (names.empty() || names.back() != name) names.push_back(name);
     }
     return names;
