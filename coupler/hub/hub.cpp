@@ -259,9 +259,9 @@ void Hub::start() {
     Cast everybody = cast();
     const Capabilities& can = grains_.hello(0).capabilities;
     motion_rule_.expect_substeps(can.native_substeps);
-    // Grains that get the fluid's inertia move with the velocities of their contacts. Under a
-    // scheme that repeats windows they get responses too, but move with the kicks: needs_inertia()
-    // is false.
+    // Grains that get the fluid's inertia may move with the velocities of their contacts. Under a
+    // scheme that repeats windows they get responses too, but must move with the kicks:
+    // needs_inertia() is false.
     motion_rule_.expect_responses(
         expectation(Role::grains, case_.settings, case_.shapes, order_).effective_inertia);
     // Also where a run goes on: all programs begin with the case's grains and are restored
