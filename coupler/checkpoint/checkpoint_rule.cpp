@@ -17,6 +17,7 @@ CheckpointRule::CheckpointRule(const Settings& settings, const RunValues& run) {
     const double interval =
         settings.has("checkpoint.interval") ? settings.real("checkpoint.interval") : 0.0;
     if (interval > 0.0)
+        // [t_c] to whole windows, at least one.
         by_time_ = std::max<std::int64_t>(1, std::llround(interval * run.time / run.step));
     if (settings.has("checkpoint.windows")) by_count_ = settings.integer("checkpoint.windows");
     if (settings.has("checkpoint.wall_minutes"))
@@ -30,6 +31,8 @@ bool CheckpointRule::any() const {
 }
 
 bool CheckpointRule::due(std::int64_t windows, Clock::time_point now) const {
+    // Wall time counts from the last set; windows count from t = 0, so that a run in parts has the
+    // sets of one in one part.
     const bool late = wall_.count() > 0.0 && now - last_ >= wall_;
     return late || divides(by_time_, windows) || divides(by_count_, windows);
 }

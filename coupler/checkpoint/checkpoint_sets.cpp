@@ -26,6 +26,7 @@ std::string name_of(std::int64_t windows) {
 }
 
 bool is_set(const fs::path& folder) {
+    // "w" and at least eight digits: other folders in there are not sets.
     const std::string name = folder.filename();
     return name.size() >= 9 && name[0] == 'w' &&
            name.find_first_not_of("0123456789", 1) == std::string::npos;
@@ -65,6 +66,8 @@ class ReadBack {
         } catch (const Failure& failure) {
             throw Failure(failure.code(), who + ": " + failure.what());
         }
+        // Two ranks that named the same file would each read the other's state, with the right
+        // checksum.
         if (!names_.insert(file.name).second)
             throw Failure(ExitCode::bad_input,
                           fmt::format("{}: {} is the file of another rank, too", who,
@@ -84,6 +87,7 @@ std::string CheckpointSets::folder(const std::string& name) {
 std::string CheckpointSets::begin(std::int64_t windows) const {
     const std::string name = temporary(name_of(windows));
     std::error_code error;
+    // What an interrupted attempt at the same window has left.
     fs::remove_all(run_ / name, error);
     if (!error) fs::create_directory(run_ / name, error);
     if (error)
@@ -95,6 +99,8 @@ std::string CheckpointSets::begin(std::int64_t windows) const {
 void CheckpointSets::commit(const Manifest& manifest) const {
     const std::string name = name_of(manifest.windows), text = manifest_text(manifest);
     const fs::path from = run_ / temporary(name), sets = run_ / sets_folder, to = sets / name;
+    // Everything below happens to the temporary folder. What `resume` looks at appears by one
+    // rename, after the disk has all files, the names in the folder, and the manifest.
     store(from, manifest_name, Bytes(text.begin(), text.end()));
     ReadBack(from).all(manifest);
     for (const StoredFile& file : manifest.files()) put_on_disk(from / file.name);
@@ -103,12 +109,14 @@ void CheckpointSets::commit(const Manifest& manifest) const {
     fs::create_directory(sets, error);
     if (fs::exists(to)) remove(name);  // a damaged one, since this run began before it
     rename_or_throw(from, to);
+    // The rename itself: the names in `checkpoints`, and the name of that folder.
     put_on_disk(sets);
     put_on_disk(run_);
 }
 
 void CheckpointSets::remove(const std::string& name) const {
     const fs::path aside = run_ / temporary("old-" + name);
+    // Out of `checkpoints` first: a set that is half removed would look like one.
     rename_or_throw(run_ / folder(name), aside);
     std::error_code ignored;  // what remains of it is removed at the next start
     fs::remove_all(aside, ignored);
@@ -127,6 +135,8 @@ std::vector<std::string> CheckpointSets::names() const {
     for (const auto& entry : fs::directory_iterator(run_ / sets_folder, none))
         if (is_set(entry.path())) names.push_back(entry.path().filename());
     const auto newer = [](const std::string& a, const std::string& b) {
+        // More digits are a larger number; of equally many the order of the texts is that of the
+        // numbers.
         return a.size() != b.size() ? a.size() > b.size() : a > b;
     };
     std::sort(names.begin(), names.end(), newer);

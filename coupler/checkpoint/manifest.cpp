@@ -69,12 +69,14 @@ std::string manifest_text(const Manifest& manifest) {
           {"fluid", list_json(manifest.fluid)},
           {"grains", list_json(manifest.grains)}}},
         {"settings", settings_json(manifest.settings)}};
+    // replace: names come from other programs, and a byte that is not UTF-8 would make this throw.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Manifest parse_manifest(const std::string& text) {
     try {
         const Json json = Json::parse(text);
+        // Before anything else is read: in another format the rest may mean something else.
         if (json.at("format") != format)
             throw std::runtime_error("format " + json.at("format").dump() + " instead of " +
                                      std::to_string(format) + ", of another version of Turbidite");

@@ -47,6 +47,7 @@ constexpr Field<FreeResponse> response_fields[] = {
 
 template <class Numbers>
 bool finite(const Numbers& numbers) {
+    // Tens of numbers per grain and message: one branch per record in the good case.
     double sum = 0.0;  // one test for all: NaN and infinity survive every sum
     for (const double x : numbers) sum += x;
     return std::isfinite(sum);
@@ -103,6 +104,7 @@ std::string fault_of(const ContactRecord& contact) {
     for (const double part : contact.normal) norm += part * part;
     if (!(std::abs(norm - 1.0) <= unit_tolerance))
         return fmt::format("normal is no unit vector: ({})", fmt::join(contact.normal, ", "));
+    // b has the larger id, so that a pair has one name whoever reports it.
     if (contact.wall < 0 && contact.a >= contact.b)
         return fmt::format("a is grain {}, but b is the grain with the larger id", contact.a);
     return negative({{"length", contact.length}});
@@ -140,6 +142,7 @@ std::string fault_of(const FluidReport& report) {
                            fmt::join(report.mean_velocity, ", "));
     if (!finite(report.probes))
         return fmt::format("probes are not finite: ({})", fmt::join(report.probes, ", "));
+    // Empty with marchuk-yanenko, which corrects nothing.
     return report.splitting ? fault_of(*report.splitting) : "";
 }
 

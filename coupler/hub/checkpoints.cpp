@@ -26,6 +26,7 @@ void Checkpoints::meet_participants() {
     for (const ParticipantLink* link : links_)
         for (int rank = 0; rank < link->ranks(); ++rank) {
             if (link->hello(rank).capabilities.saves_state) continue;
+            // Told once, and only where the case has asked for checkpoints.
             if (rule_.any() && able_)
                 print_(
                     fmt::format("turbidite: {} cannot save its state; the run has no checkpoints",
@@ -46,6 +47,7 @@ bool Checkpoints::write(const CouplerState& state) {
         print_(fmt::format("turbidite: warning: no checkpoint after window {}: {}. {}",
                            state.windows, fault, sets_left()));
     }
+    // After a failure as well: a full disk is not tried again in every window.
     rule_.written();
     seconds_ += std::chrono::duration<double>(CheckpointRule::Clock::now() - start).count();
     return fault.empty();
@@ -77,11 +79,14 @@ std::string Checkpoints::attempt(const CouplerState& state) {
     });
     if (!fault.empty()) return fault;
     Manifest manifest = described(state);
+    // All are asked before any answer is waited for: programs write at the same time.
     for (ParticipantLink* link : links_) link->send_all(Kind::save, CheckpointPlace{folder});
     for (ParticipantLink* link : links_)
+        // Answers of all are taken even after a fault: they are due, and the run goes on.
         (link->role() == Role::fluid ? manifest.fluid : manifest.grains) = collect(*link, fault);
     if (!fault.empty()) return fault;
     return fault_of([&] {
+        // The coupler's part last: only commit() makes a set of the files, by a rename.
         manifest.coupler = store(run_folder_ / folder, "coupler", encode(state));
         sets_.commit(manifest);
         sets_.keep_newest(rule_.keep());
@@ -92,6 +97,7 @@ Manifest Checkpoints::described(const CouplerState& state) const {
     Manifest manifest;
     manifest.case_hash = settings_.text("run.hash");
     manifest.windows = state.windows;
+    // [t_c], for those who read the file.
     manifest.time = static_cast<double>(state.windows) * run_.step / run_.time;
     manifest.settings = settings_;
     return manifest;
@@ -119,6 +125,7 @@ void Checkpoints::restore(const std::string& name) {
     for (ParticipantLink* link : links_) {
         watch_.wait_for(*link, Kind::restored);
         link->discard(Kind::restored);
+        // Both ends count from here: the next envelope has this index.
         link->go_on_after(manifest.windows);
     }
     rule_.written();

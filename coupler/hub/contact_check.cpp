@@ -28,6 +28,7 @@ std::string name_of(const ContactRecord& contact) {
 }
 
 /// Of all ranks, in the order of contact_before; those of one contact in the order of the ranks.
+// Pointers: contacts stay where they are, since the shares are merged only after this check.
 std::vector<Reported> in_order(const std::vector<Motion>& shares) {
     std::vector<Reported> all;
     for (std::size_t rank = 0; rank < shares.size(); ++rank)
@@ -40,6 +41,7 @@ std::vector<Reported> in_order(const std::vector<Motion>& shares) {
 }
 
 std::optional<GrainId> unknown_grain(const ContactRecord& contact, const GrainRoster& roster) {
+    // At a wall only b is a grain; a is undefined there.
     if (!roster.has(contact.b)) return contact.b;
     if (contact.wall < 0 && !roster.has(contact.a)) return contact.a;
     return std::nullopt;
@@ -52,6 +54,8 @@ void check_contacts(const std::vector<Motion>& shares, const GrainRoster& roster
     const auto silent = std::find_if(shares.begin(), shares.end(),
                                      [](const Motion& share) { return !share.contacts; });
     const auto tells = [](const Motion& share) { return share.contacts.has_value(); };
+    // No rank tells, in windows without output or from programs that cannot. Some but not all would
+    // make sums over contacts wrong.
     if (std::none_of(shares.begin(), shares.end(), tells)) return;
     if (silent != shares.end())
         arrival.refuse(static_cast<int>(silent - shares.begin()),
@@ -64,6 +68,8 @@ void check_contacts(const std::vector<Motion>& shares, const GrainRoster& roster
                            fmt::format("{} names grain {}, which is not in the run",
                                        name_of(*contact), *unknown),
                            one_report_per_contact);
+        // In this order, two that follow each other and are not before each other are the same
+        // contact.
         if (k > 0 && !contact_before(*all[k - 1].contact, *contact))
             arrival.refuse(rank,
                            fmt::format("{} was sent twice, first by rank {}", name_of(*contact),

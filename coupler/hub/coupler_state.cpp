@@ -8,6 +8,7 @@
 namespace turbidite {
 namespace {
 
+// The output's state goes in as one text: its own encoding may grow without changing this one.
 std::string text_of(const Bytes& bytes) {
     return {bytes.begin(), bytes.end()};
 }
@@ -48,6 +49,7 @@ CouplerState decode(View bytes) {
     for (std::int64_t& owner : state.owners) code(owner);
     state.output = record_of<OutputState>(code);
     code.finish();
+    // owners[i] is the rank of grains[i]: lists of different length belong to different states.
     if (state.owners.size() != state.output.state.grains.size())
         throw MalformedPayload("owners of " + std::to_string(state.owners.size()) +
                                " grains instead of " +
@@ -56,6 +58,7 @@ CouplerState decode(View bytes) {
 }
 
 void share_out(CouplerState& state, int ranks) {
+    // By the rule that the ranks follow themselves in restore_from: both ends find the same owners.
     const std::vector<int> owners = even_shares(state.output.state.grains, ranks);
     state.owners.assign(owners.begin(), owners.end());
 }

@@ -21,6 +21,8 @@ bool meets(double centre, double reach, double lower, double upper, double perio
            (period > 0.0 && (overlaps(centre - period) || overlaps(centre + period)));
 }
 
+// The cube around the sphere of R + margin against the box: some grains too many near corners, none
+// too few.
 bool touches(const GrainState& grain, const Box& box, double margin, const Vec3& period) {
     for (int axis = 0; axis < 3; ++axis)
         if (!meets(grain.position[axis], grain.radius + margin, box.lower[axis], box.upper[axis],
@@ -37,6 +39,8 @@ std::optional<double> sum_given(std::optional<double> a, std::optional<double> b
     return a && b ? *a + *b : a ? a : b;
 }
 
+// Counts and work add up, since every contact, film and grain is reported by one rank. Sweeps are
+// made by all ranks together, and their times run in parallel: the largest. NaN survives (largest).
 void add(ContactReport& total, const ContactReport& share) {
     total.contacts += share.contacts;
     total.iterations = std::max(total.iterations, share.iterations);
@@ -51,6 +55,8 @@ void add(ContactReport& total, const ContactReport& share) {
     total.wall_seconds = std::max(total.wall_seconds, share.wall_seconds);
 }
 
+// Nothing, and not an empty list, where no rank reports contacts: columns that need them stay
+// empty.
 std::optional<std::vector<ContactRecord>> all_contacts(const std::vector<Motion>& shares) {
     std::optional<std::vector<ContactRecord>> all;
     for (const Motion& share : shares) {
@@ -79,6 +85,8 @@ std::vector<Source> in_order_of_ids(const std::vector<Motion>& shares) {
         const auto before = static_cast<std::ptrdiff_t>(all.size());
         for (std::size_t at = 0; at < shares[rank].grains.size(); ++at)
             all.push_back({shares[rank].grains[at].id, rank, at});
+        // The shares so far are in order; the new one is put in order by itself, then both are
+        // merged.
         const auto middle = all.begin() + before;
         if (!std::is_sorted(middle, all.end(), lower_id))
             std::stable_sort(middle, all.end(), lower_id);
@@ -100,8 +108,10 @@ ExchangePlan::ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 per
 
 Motion ExchangePlan::gather(std::vector<Motion> shares) {
     auto contacts = all_contacts(shares);
+    // Before the first share is moved from, below.
     const ContactReport report = report_of(shares);
     owners_ = shares.size();
+    // A single rank keeps its own order, without a copy of the grains.
     Motion all = owners_ == 1 ? std::move(shares.front()) : merged(shares);
     if (owners_ == 1) owner_.assign(all.grains.size(), 0);
     all.report = report;
@@ -125,6 +135,7 @@ Motion ExchangePlan::merged(const std::vector<Motion>& shares) {
 std::vector<MotionShare> ExchangePlan::by_place(const Motion& motion) const {
     std::vector<MotionShare> routed(boxes_.size(), MotionShare{&motion, {}});
     for (std::size_t at = 0; at < motion.grains.size(); ++at)
+        // Places, not copies: a grain near a border goes to every rank that needs it.
         for (std::size_t rank = 0; rank < boxes_.size(); ++rank)
             if (touches(motion.grains[at], boxes_[rank], margin_, period_))
                 routed[rank].places.push_back(static_cast<std::uint32_t>(at));
@@ -145,6 +156,8 @@ std::vector<std::vector<Record>> ExchangePlan::by_owner(std::vector<Record> reco
     const std::vector<int> owners = owners_of(records);
     std::vector<std::vector<Record>> routed(owners_);
     if (owners_ == 1)
+        // A single rank takes its records in the order of the fluid's ranks: participants find them
+        // by id.
         routed[0] = std::move(records);
     else
         for (std::size_t i = 0; i < records.size(); ++i) routed[owners[i]].push_back(records[i]);
@@ -154,11 +167,14 @@ std::vector<std::vector<Record>> ExchangePlan::by_owner(std::vector<Record> reco
 /// Of each record; throws unless every grain is answered once.
 template <class Record>
 std::vector<int> ExchangePlan::owners_of(const std::vector<Record>& records) const {
+    // Two fluid ranks could both think that they own a centre, or neither: hence the count per
+    // grain.
     std::vector<bool> answered(index_.size(), false);
     std::vector<int> owners;
     owners.reserve(records.size());
     std::size_t at = GrainIndex::nowhere;
     for (const Record& record : records) {
+        // The guess: the place after that of the record before. nowhere + 1 is 0, the first place.
         at = index_.place(record.id, at + 1);
         if (at == GrainIndex::nowhere || answered[at])
             throw PhysicsRefused(
@@ -181,6 +197,7 @@ std::vector<Motion> shares_of(const std::vector<GrainState>& population, int ran
         shares[0].grains = population;
         return shares;
     }
+    // In the order of x, as the ranks of a resumed run find their shares by the same rule.
     const std::vector<int> rank = even_shares(population, ranks);
     for (std::size_t i = 0; i < population.size(); ++i)
         shares[static_cast<std::size_t>(rank[i])].grains.push_back(population[i]);

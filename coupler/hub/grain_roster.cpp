@@ -19,6 +19,8 @@ const std::string is_it_outside =
 
 std::int64_t announced_in(const std::vector<Motion>& shares, Kind kind) {
     std::int64_t removed = 0;
+    // Grains leave with the state only: in `motion` all of them must be there, whatever its report
+    // says.
     if (kind == Kind::state)
         for (const Motion& share : shares) removed += share.report.removed;
     return removed;
@@ -37,6 +39,7 @@ const std::vector<FreeResponse>& records_of(const std::vector<FreeResponse>& sha
 }  // namespace
 
 GrainRoster::GrainRoster(const std::vector<GrainState>& population) {
+    // All of rank 0 until the grains have been heard of for the first time.
     remember({Motion{population, {}}});
 }
 
@@ -56,12 +59,15 @@ bool GrainRoster::unchanged(const Shares& shares) const {
     std::size_t at = 0;
     for (const auto& share : shares)
         for (const auto& record : records_of(share))
+            // All ranks one after the other, against the last message: one comparison per grain, no
+            // look-up. Where this holds, ids, bodies and their number are right.
             if (at == present_.size() || !present_[at++].fits(record)) return false;
     return at == present_.size();
 }
 
 template <class Shares>
 GrainRoster::Seen GrainRoster::tally(const Shares& shares, const Arrival& arrival) const {
+    // By id, in any order and from any rank: grains may change their rank between two messages.
     Seen seen(present_.size(), nobody);
     for (std::size_t rank = 0; rank < shares.size(); ++rank)
         for (const auto& record : records_of(shares[rank])) {
@@ -96,6 +102,7 @@ std::string GrainRoster::Entry::difference(const GrainState& grain) const {
 void GrainRoster::check_bodies(const std::vector<Motion>& shares, const Arrival& arrival) const {
     for (std::size_t rank = 0; rank < shares.size(); ++rank)
         for (const GrainState& grain : shares[rank].grains) {
+            // Of the last message that was remembered, which had passed the same comparison.
             const Entry& known = present_[places_.at(grain.id)];
             if (known.is_the_same_body(grain)) continue;
             arrival.refuse(
@@ -110,6 +117,8 @@ void GrainRoster::check_missing(const Seen& seen, const std::vector<Motion>& sha
                                 const Arrival& arrival) const {
     const std::int64_t announced = announced_in(shares, arrival.kind());
     const std::int64_t missing = std::count(seen.begin(), seen.end(), nobody);
+    // More missing than announced: one got lost. Fewer: a grain was announced and sent all the
+    // same.
     if (missing == announced) return;
     const auto first = std::find(seen.begin(), seen.end(), nobody);
     if (first == seen.end())
@@ -117,6 +126,7 @@ void GrainRoster::check_missing(const Seen& seen, const std::vector<Motion>& sha
             fmt::format("{} grains were announced as removed, none is missing", announced),
             every_grain_once);
     const Entry& lost = present_[first - seen.begin()];
+    // The rank that had it last is the one to ask; nobody has sent it this time.
     arrival.refuse(lost.rank,
                    fmt::format("{} of {} grains are missing, {} announced as removed; the first "
                                "one missing is grain {}",
@@ -125,11 +135,14 @@ void GrainRoster::check_missing(const Seen& seen, const std::vector<Motion>& sha
 }
 
 std::vector<Leaver> GrainRoster::check(const std::vector<Motion>& shares, const Arrival& arrival) {
+    // The announcement counts even if all grains are there.
     if (unchanged(shares) && announced_in(shares, arrival.kind()) == 0) return {};
+    // Unknown and doubled ids first: what follows looks every grain up.
     const Seen seen = tally(shares, arrival);
     check_bodies(shares, arrival);
     check_missing(seen, shares, arrival);
     std::vector<Leaver> gone = leavers(seen);
+    // The order and the ranks of this message are what the next one is compared with.
     remember(shares);
     return gone;
 }
@@ -143,6 +156,7 @@ std::vector<Leaver> GrainRoster::leavers(const Seen& seen) const {
 
 template <class Shares>
 void GrainRoster::check_answers(const Shares& shares, const Arrival& arrival) const {
+    // Holds where one fluid rank answers in the order in which it got the grains.
     if (unchanged(shares)) return;
     const Seen seen = tally(shares, arrival);
     const auto missing = std::count(seen.begin(), seen.end(), nobody);

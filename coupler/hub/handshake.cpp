@@ -10,6 +10,7 @@ Expectation expectation(Role role, const Settings& settings, const ShapeTable& s
     const bool grains = role == Role::grains;
     Expectation expected;
     expected.role = role;
+    // Only shipped grains adapters are known by name; fluids and users' programs have any.
     const bool any = !grains || settings.text("grains.adapter") == users_program;
     expected.adapter = any ? "" : settings.text("grains.adapter");
     expected.dimension = static_cast<std::int32_t>(settings.integer("dimension"));
@@ -18,6 +19,7 @@ Expectation expectation(Role role, const Settings& settings, const ShapeTable& s
     expected.case_hash = settings.text("run.hash");
     expected.scheme = scheme.name;
     expected.restores_within_window = grains && scheme.repeats;
+    // Grains that repeat their windows take only velocities from the responses.
     expected.effective_inertia = grains ? scheme.needs_inertia() : scheme.has_responses();
     for (const ShapeRecord& shape : shapes) expected.shapes.push_back(shape.kind);
     return expected;
@@ -25,6 +27,7 @@ Expectation expectation(Role role, const Settings& settings, const ShapeTable& s
 
 void shake_hands(const std::vector<ParticipantLink*>& links, const Settings& settings,
                  const ShapeTable& shapes, const SchemeEntry& scheme, Watch& watch) {
+    // Collected from all ranks: the user mends everything at once.
     std::string report;
     for (ParticipantLink* link : links) {
         watch.wait_for(*link, Kind::hello);

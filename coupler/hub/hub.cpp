@@ -101,6 +101,8 @@ RunOutput Hub::make_output() const {
 void Hub::play(const Window& window) {
     WindowResult result = scheme_->play(window, output_.state(), cast());
     ledger_.check(window, result);
+    // The largest Courant number before this window: a warning belongs to the window that exceeds
+    // it.
     const auto fluid = output_.statistics().maxima.fluid;
     output_.record(window, std::move(result), watch_.take_waited());
     if (fluid) warn_of_courant(fluid->courant);
@@ -131,8 +133,10 @@ void Hub::write_output(const Window& window) {
 void Hub::play_windows() {
     const std::int64_t windows = settings_.run.windows;
     for (std::int64_t index = output_.statistics().windows_done; index < windows; ++index) {
+        // Before the window: a request that comes during one is obeyed by the next.
         const Requests asked = requests_.take();
         const bool last = asked.stop || index + 1 == windows;
+        // A row asked for by WRITE counts as in turn: it comes before the checkpoint and stays.
         const bool in_turn = (index + 1) % settings_.run.output_every == 0 || asked.write;
         const Window now = window(index, in_turn || last);
         play(now);
@@ -140,6 +144,7 @@ void Hub::play_windows() {
                           (last && checkpoints_.by_rule());
         finish(now, !in_turn, save);
         progress_.show(output_.row(), now.write_output);
+        // One that was seen before the last window has no effect: the run is done.
         if (asked.stop && index + 1 < windows) throw Failure(*asked.stop, stopped_after(index + 1));
     }
 }
@@ -154,6 +159,7 @@ Window Hub::window(std::int64_t index, bool written) const {
     Window window;
     window.index = index;
     window.step = settings_.run.step;
+    // n dt, not a sum of steps: a resumed run has the same times to the last digit.
     window.time = static_cast<double>(index) * window.step;
     window.write_output = written;
     return window;
@@ -232,30 +238,40 @@ void Hub::end_and_record() {
 
 void Hub::start() {
     if (case_.settings.has("output.timeline") && case_.settings.flag("output.timeline"))
+        // In front of the first wait, so that the handshake is in the timeline too.
         watch_.set_timeline(&timeline_.emplace(files_.root, Role::coupler, 0));
     name_by_start_records();
+    // All mismatches of all programs are refused here, before any of them gets its settings.
     shake_hands(links_, case_.settings, case_.shapes, order_, watch_);
     ledger_.name_programs(grains_.program(), fluid_ ? fluid_->program() : "");
     tell_participants();
     std::vector<Box> boxes;
     if (fluid_) {
         watch_.wait_for(*fluid_, Kind::domain);
+        // Which part of the box each fluid rank has: needed to route the first grains.
         boxes = fluid_->take<Box>(Kind::domain);
         const Arrival arrival(*fluid_, Kind::domain, -1);
         for (int rank = 0; rank < fluid_->ranks(); ++rank) arrival.check(rank, boxes[rank]);
     }
+    // The margin [m]: stencil_cells of the largest cells that grains can reach.
     plan_.emplace(std::move(boxes), stencil_cells * settings_.cell, settings_.run.period);
     checkpoints_.meet_participants();
     Cast everybody = cast();
     const Capabilities& can = grains_.hello(0).capabilities;
     motion_rule_.expect_substeps(can.native_substeps);
+    // Grains that get the fluid's inertia may move with the velocities of their contacts. Under a
+    // scheme that repeats windows they get responses too, but must move with the kicks:
+    // needs_inertia() is false.
     motion_rule_.expect_responses(
         expectation(Role::grains, case_.settings, case_.shapes, order_).effective_inertia);
+    // Also where a run goes on: all programs begin with the case's grains and are restored
+    // afterwards.
     Motion initial = receive_start(everybody);
     if (case_.resumed)
         go_on_from(*case_.resumed);
     else
         begin_output(std::move(initial));
+    // Waiting during the start belongs to no window.
     watch_.take_waited();
 }
 
@@ -274,7 +290,9 @@ void Hub::begin_output(Motion initial) {
 
 void Hub::go_on_from(const Resumption& earlier) {
     const std::vector<Motion> shares = shares_of(earlier.state, grains_.ranks());
+    // The participants first: one that cannot take its state ends the run before the coupler has.
     checkpoints_.restore(earlier.name);
+    // Without the grains that left before the checkpoint, which the population still has.
     roster_.resume(shares);
     plan_->gather(shares);
     ledger_.resume(earlier.state.ledger);
@@ -287,6 +305,7 @@ void Hub::go_on_from(const Resumption& earlier) {
 void Hub::tell_participants() {
     for (ParticipantLink* link : links_) {
         const Order& order = order_.order(link->role());
+        // The coupler's end, checked like the participant's own.
         link->set_window_order(order);
         for (const Hello& hello : hellos({link}))
             progress_.say(fmt::format("{:<14} {} in {} (host {}, pid {})",
@@ -301,11 +320,15 @@ void Hub::tell_participants() {
 
 void Hub::end(const Verdict& verdict) {
     if (!verdict.reason.empty()) report_end("turbidite: " + verdict.reason);
+    // Three rounds: no process may reach MPI_Finalize before all of them have written their output
+    // and said farewell, else mpirun hangs or crashes when one of them has to be aborted
+    // (docs/decisions/job.md).
     for (ParticipantLink* link : links_) link->dismiss(verdict);
     const double limit =
         status_.code == ExitCode::stalled ? farewell_limit_after_stall : farewell_limit;
     await_all(&ParticipantLink::gone, limit);
     for (ParticipantLink* link : links_) link->release();
+    // `release` must have left this process before it goes on to MPI_Finalize itself.
     await_all(&ParticipantLink::flushed, limit);
 }
 
@@ -321,6 +344,7 @@ void Hub::await_all(bool (ParticipantLink::*condition)(), double limit) {
     Patience patience;
     for (bool waiting = true; waiting; patience.wait()) {
         waiting = false;
+        // The condition is asked of every link, since asking is what takes its frames in.
         for (ParticipantLink* link : links_) waiting = !(link->*condition)() || waiting;
         if (waiting && patience.seconds() > limit)
             throw Failure(

@@ -13,7 +13,9 @@ namespace {
 double largest_cell(const Settings& settings, const RunValues& run) {
     const double cell = run.diameter / settings.real("fluid.cells_per_diameter");
     if (!rows_are_stretched(settings)) return cell;
+    // Then grains may be anywhere, also in the highest rows.
     if (settings.flag("fluid.allow_coarse")) return settings.real("fluid.stretch_largest") * cell;
+    // h r^3 (protocol/mesh_rows.hpp): grains stay below the stretched rows.
     return std::pow(settings.real("fluid.stretch_ratio"), 3) * cell;  // the first stretched rows
 }
 

@@ -20,6 +20,7 @@ Vec3 angular_momentum(const Eigen::Matrix3d& inertia, const Quaternion& q, const
     if (inertia == inertia(0, 0) * Eigen::Matrix3d::Identity())  // a sphere's
         return inertia(0, 0) * spin;
     const Rotation turn = rotation(q);
+    // To body axes, times I, and back to world axes.
     const Vec3 own = turn.back(spin);
     const Eigen::Vector3d momentum = inertia * Eigen::Vector3d(own[0], own[1], own[2]);
     return turn({momentum[0], momentum[1], momentum[2]});
@@ -39,6 +40,7 @@ struct Balance {
     double rest = 0.0;
     GrainId worst = 0;
 
+    // Terms with their signs: they add up to zero where the equation of motion holds.
     void add(GrainId grain, std::initializer_list<Vec3> terms) {
         Vec3 sum{};
         for (const Vec3& term : terms) {
@@ -52,6 +54,8 @@ struct Balance {
 };
 
 GrainBalance found(const Balance& linear, const Balance& angular, GrainBalance::Rule rule) {
+    // One scale for both, the largest term of any grain: a grain at rest has no scale of its own.
+    // The angular terms are divided by R, so that all are momenta [kg m/s].
     const double largest = std::max(linear.largest, angular.largest);
     const Balance& worse = linear.rest >= angular.rest ? linear : angular;
     return {largest > 0.0 ? worse.rest / largest : 0.0, worse.worst, rule, largest};
@@ -67,6 +71,7 @@ KickRule::KickRule(const RunValues& run, const ShapeTable& shapes,
 }
 
 const ImmersedBody& KickRule::body_of(const GrainState& grain) {
+    // Masses and tensors are computed once for a row of equal grains.
     const bool same = last_body_ && grain.shape == last_.shape && grain.radius == last_.radius &&
                       grain.density == last_.density;
     if (!same) {
@@ -86,6 +91,8 @@ void KickRule::complete(std::vector<Kick>& kicks, const Motion& before, double s
                                  ", which is unknown");
         const GrainState& grain = before.grains[at];
         const ImmersedBody& immersed = body_of(grain);
+        // lambda moves the effective inertia M - rho_f V(R_h) alone (shapes/immersed_body.hpp).
+        // F_h, which moves all of M, has the rest of that inertia besides.
         const Vec3 velocity_change = kick.velocity - grain.velocity;
         const Vec3 spin_change = kick.angular_velocity - grain.angular_velocity;
         // F_h = (J_lambda + rho_f V dU) / dt, T_h = (K_lambda + I_f domega) / dt
@@ -107,11 +114,14 @@ GrainBalance KickRule::balance(const std::vector<Kick>& kicks, const Motion& bef
         at = before_.place(kick.id, at + 1);
         at_contact = contact_.place(kick.id, at_contact + 1);
         const GrainState& grain = before.grains.at(at);
+        // The force that drives it is not known here and would be the residual.
         if (has_given_motion(grain.id)) continue;
         const GrainState& with_contact = contact.grains.at(at_contact);
         const ImmersedBody& immersed = body_of(grain);
         const Vec3 spin_change = kick.angular_velocity - grain.angular_velocity;
         // M dU - (M - m_f) g dt - J_c - F_h dt; the same for the spin, divided by R
+        // Gravity acts along -y, so its term is +(M - m_f) g dt in y. m_f is of V(R): buoyancy acts
+        // on the true volume, whatever R_h.
         linear.add(kick.id, {immersed.mass * (kick.velocity - grain.velocity),
                              Vec3{0.0, immersed.submerged_mass * gravity_ * step, 0.0},
                              -with_contact.contact_impulse, -step * kick.force});
@@ -158,6 +168,7 @@ GrainBalance KickRule::with_state(GrainBalance so_far, const std::vector<Kick>& 
         if (same_velocities(kick, now) && same_impulses(then, now)) continue;
         const ImmersedBody& body = body_of(now);
         const Vec3 spin_error = now.angular_velocity - kick.angular_velocity;
+        // All four as momenta [kg m/s]: M |dU|, |I domega|/R, |dJ_c|, |dK_c|/R.
         const double worst = std::max(
             {body.mass * norm(now.velocity - kick.velocity),
              norm(angular_momentum(body.inertia, now.orientation, spin_error)) / now.radius,

@@ -11,6 +11,7 @@ namespace turbidite {
 namespace {
 
 // A projection that leaves more than this [u_c/D] has failed.
+// Velocity gradients of the flow are of order u_c/D: a projection must leave far less.
 constexpr double divergence_limit = 1e-4;
 
 // Fewer failures in succession, as in windows with violent motion, are tolerated.
@@ -57,10 +58,12 @@ void Ledger::resume(const LedgerState& state) {
 
 void Ledger::check(const Window& window, const WindowResult& result) {
     check_overlap(window, result.state);
+    // Without a fluid the report is an empty one, which passes both.
     check_divergence(result.kicks.report);
     check_multipliers(result.kicks.report);
     if (result.grain_balance)
         judge(grain_balance_, result.grain_balance->defect, window, meaning(*result.grain_balance));
+    // The fluid's own account of its momentum: zero without one.
     if (settings_.run.wet)
         judge(
             fluid_balance_, result.kicks.report.momentum_defect, window,
@@ -100,11 +103,13 @@ void Ledger::judge(Balance& balance, double defect, const Window& window,
     if (!(defect <= balance.limits.hard))  // true for NaN
         throw PhysicsRefused(text("hard", balance.limits.hard));
     if (defect <= balance.limits.soft || balance.warned) return;
+    // Once per run, also of one that was interrupted: the flag is part of a checkpoint.
     balance.warned = true;
     warn_("turbidite: warning: " + text("soft", balance.limits.soft));
 }
 
 void Ledger::check_overlap(const Window& window, const Motion& state) const {
+    // Of the state: an overlap that the motion alone reports is not judged.
     const double overlap = state.report.max_penetration / settings_.run.diameter;
     if (overlap <= settings_.penetration) return;
     throw PhysicsRefused(fmt::format(
@@ -113,6 +118,7 @@ void Ledger::check_overlap(const Window& window, const Motion& state) const {
 }
 
 void Ledger::check_divergence(const FluidReport& report) {
+    // From [1/s] to [u_c/D].
     const double divergence = report.divergence * settings_.run.diameter / settings_.run.velocity;
     const bool good = divergence <= divergence_limit;  // false for NaN
     divergent_windows_ = good ? 0 : divergent_windows_ + 1;

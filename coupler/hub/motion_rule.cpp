@@ -36,6 +36,7 @@ Eigen::Quaterniond turned(const Quaternion& q, const Vec3& angle) {
     const Eigen::Vector3d axis(angle[0], angle[1], angle[2]);
     const double size = axis.norm();
     if (size == 0.0) return unit(q);
+    // World axes: the turn of a window is applied after the orientation at its start.
     return Eigen::AngleAxisd(size, axis / size) * unit(q);
 }
 
@@ -51,6 +52,7 @@ std::string words(const Quaternion& q) {
 }
 
 /// Of the centre, or of the fastest point of the surface.
+// |U| + R |omega|, an upper bound of both [m/s].
 double speed(const GrainState& grain) {
     return norm(grain.velocity) + grain.radius * norm(grain.angular_velocity);
 }
@@ -80,6 +82,8 @@ struct MotionRule::Limits {
     double overlap;  ///< deepest one reported [m]
 
     /// How far a grain with contacts may go in sub-steps, and where one is not searched for.
+    /// 11/3 + 1 < 5: the surface of a grain struck by much heavier ones, and dt U^{n+1} itself
+    /// (head of the header).
     double struck() const { return 5.0 * (step * speed + overlap); }
 };
 
@@ -92,6 +96,8 @@ MotionRule::MotionRule(const Settings& settings, const ShapeTable& shapes,
     for (const Moved& moved : motions_of(settings, "run.grain_motions"))
         driven_.emplace(moved.what, moved.motion);
     for (const GrainState& grain : population)
+        // Driven grains are prescribed too: they are in both tables, and check_given takes their
+        // motion.
         if (grain.prescribed) held_.emplace(grain.id, twist_of(grain));
     const auto given = [&](const char* key) {
         return settings.has(key) && !settings.text(key).empty();
@@ -107,12 +113,15 @@ Vec3 MotionRule::from_to(const Vec3& from, const Vec3& to) const {
     Vec3 way = to - from;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double period = run_.period[axis];
+        // A program may keep positions inside the box or let them run on: both are the same place.
         if (period > 0.0) way[axis] -= period * std::round(way[axis] / period);
     }
     return way;
 }
 
 bool MotionRule::is_same_rate(const Vec3& expected, const Vec3& found, double scale) const {
+    // `scale` is the run's own (u_c, or u_c/R for spins): a rate of zero would else allow no
+    // rounding.
     return change(expected, found) <= round_off * (norm(expected) + scale);
 }
 
@@ -120,12 +129,14 @@ bool MotionRule::is_same_rate(const Vec3& expected, const Vec3& found, double sc
 void MotionRule::compare(const Gathered& sent, std::size_t at, const GrainState& expected,
                          const std::string& remedy) const {
     const GrainState& found = sent.motion.grains[at];
+    // Equal numbers, the usual case, need no arithmetic. Below, !(a <= b) is true for NaN too.
     if (expected.position == found.position && expected.orientation == found.orientation) return;
     if (!(norm(from_to(expected.position, found.position)) <= same_place()))
         sent.arrival.refuse(sent.owners[at],
                             fmt::format("grain {} is at {} instead of {}", found.id,
                                         words(found.position), words(expected.position)),
                             remedy);
+    // The angle between both [rad]; q and -q are the same orientation.
     if (!(unit(expected.orientation).angularDistance(unit(found.orientation)) <= round_off))
         sent.arrival.refuse(
             sent.owners[at],
@@ -135,6 +146,7 @@ void MotionRule::compare(const Gathered& sent, std::size_t at, const GrainState&
 }
 
 void MotionRule::check_start(const std::vector<Leaver>& leavers, const Gathered& initial) {
+    // In a resumed run as well: `restore` comes after `initialise`, whose grains are the case's.
     for (const Leaver& leaver : leavers)
         initial.arrival.refuse(
             leaver.rank, fmt::format("grain {} was removed before the first window", leaver.id),
@@ -155,6 +167,7 @@ void MotionRule::check_start(const std::vector<Leaver>& leavers, const Gathered&
         demand("velocity", given.velocity, found.velocity, u);
         demand("angular velocity", given.angular_velocity, found.angular_velocity,
                u / found.radius);
+        // A case gives none, and zero must come back as zero: there is nothing to round.
         demand("contact impulse", given.contact_impulse, found.contact_impulse, 0.0);
         demand("contact angular impulse", given.contact_angular_impulse,
                found.contact_angular_impulse, 0.0);
@@ -168,6 +181,8 @@ void MotionRule::check_given(const Window& window, const Gathered& sent) const {
         const GrainState& grain = sent.motion.grains[at];
         const auto held = held_.find(grain.id);
         if (held == held_.end()) continue;
+        // A held grain keeps its velocity of t = 0; a driven one has the mean rate of this window,
+        // (d(t + dt) - d(t))/dt, so that it is where its motion says at the end of every window.
         Twist rates = held->second;
         if (const auto driven = driven_.find(grain.id); driven != driven_.end())
             rates = driven->second->rate(window.time, window.step);
@@ -188,7 +203,9 @@ void MotionRule::check_motion(const Window& window, const Motion& before, const 
     before_.follow(before.grains);
     std::size_t from = GrainIndex::nowhere;
     for (std::size_t at = 0; at < motion.motion.grains.size(); ++at) {
+        // The guess is the place after that of the grain before; nowhere + 1 is 0, the first place.
         from = before_.place(motion.motion.grains[at].id, from + 1);
+        // The roster has checked the ids: every grain of the motion is in the state before.
         compare(motion, at, before.grains[from], start_of_window);
     }
     check_given(window, motion);
@@ -197,6 +214,7 @@ void MotionRule::check_motion(const Window& window, const Motion& before, const 
 /// How far a grain is from where these rates take it; of an angle, on its circumference [m].
 double MotionRule::defect(const Grain& grain, const Twist& rates, double step) const {
     const Shift way = step * rates;
+    // q^n + dt U, and the orientation of t^n turned by dt omega.
     const Vec3 goal = grain.then.position + way.displacement;
     const double apart = norm(from_to(goal, grain.now.position));
     const double turn =
@@ -207,6 +225,8 @@ double MotionRule::defect(const Grain& grain, const Twist& rates, double step) c
 double MotionRule::smallest_defect(const Grain& grain, double step) const {
     const double corrected = defect(grain, twist_of(grain.now), step);
     if (!with_contact_velocity_ || !grain.contact) return corrected;
+    // Both rules are allowed, for each grain: the program has moved it by one velocity or the
+    // other.
     return std::min(corrected, defect(grain, twist_of(*grain.contact), step));
 }
 
@@ -214,17 +234,22 @@ double MotionRule::smallest_defect(const Grain& grain, double step) const {
 bool MotionRule::is_pushed(const Grain& grain, const Limits& limits) const {
     const double impulse = norm(grain.now.contact_impulse) +
                            norm(grain.now.contact_angular_impulse) / grain.now.radius;
+    // |J_c| + |K_c|/R against the round-off of M V, V the largest speed of the window.
     return impulse > round_off * bodies_(grain.now).mass * limits.speed;
 }
 
 /// Whether a grain may meet another one, or a wall, on the way of this length.
 bool MotionRule::may_touch(const GrainState& grain, const Motion& before, double reach) const {
+    // Walls inside the box and moving sides are not measured here: they count as near to
+    // everything.
     if (walls_anywhere_) return true;
     const double near = grain.radius + reach;
     for (std::size_t side = 0; side < side_count(run_.dimension); ++side)
         if (holds_grains(side_types_[side]) &&
             box_sides[side].distance(grain.position, run_.size) <= near)
             return true;
+    // The other one may come as far to meet it. All grains are searched, but only for one that is
+    // not where its rule takes it.
     return std::any_of(before.grains.begin(), before.grains.end(), [&](const GrainState& other) {
         return other.id != grain.id &&
                norm(from_to(grain.position, other.position)) <= near + other.radius + reach;
@@ -234,14 +259,17 @@ bool MotionRule::may_touch(const GrainState& grain, const Motion& before, double
 /// What a state may differ from its rule by; see the head of the header [m].
 double MotionRule::allowed(const Grain& grain, const Motion& before, const Limits& limits) {
     const GrainState &then = grain.then, &now = grain.now;
+    // Contacts do not change a given motion: no allowance beside others either.
     if (held_.count(now.id) > 0) return same_place();
     if (is_pushed(grain, limits) || may_touch(then, before, limits.struck())) {
         if (substeps_) return limits.struck();
+        // dt (|U^{n+1} - U^{n+4/5}| + |U^{n+4/5} - U^n|); without a fluid dt |U^{n+1} - U^n|.
         const double changes = grain.contact ? change_of_speed(then, *grain.contact) +
                                                    change_of_speed(*grain.contact, now)
                                              : change_of_speed(then, now);
         return limits.step * changes + limits.overlap + same_place();
     }
+    // Free fall in sub-steps, without a fluid: q is the sum of small steps, not dt U^{n+1}.
     if (substeps_ && !grain.contact) return limits.step * change_of_speed(then, now) + same_place();
     return same_place();
 }
@@ -261,6 +289,7 @@ void MotionRule::check_leavers(const std::vector<Leaver>& leavers, const Motion&
                                const Arrival& arrival, const Limits& limits) const {
     for (const Leaver& leaver : leavers) {
         const GrainState& grain = before.grains[before_.place(leaver.id)];
+        // Of t^n, the last place that is known of it.
         const double distance = distance_to_free_side(grain.position);
         const double most = grain.radius + limits.struck();
         if (distance <= most) continue;
@@ -294,6 +323,7 @@ MotionRule::Limits MotionRule::limits(const Window& window, const Motion& before
         largest = std::max(largest, fastest(*motion));
         limits.overlap = std::max(limits.overlap, motion->report.max_penetration);
     }
+    // Contacts may have been fastest in between, hence all three motions, and g dt on top of them.
     limits.speed += largest;
     return limits;
 }
@@ -301,6 +331,8 @@ MotionRule::Limits MotionRule::limits(const Window& window, const Motion& before
 MotionDefect MotionRule::check_state(const Window& window, const Motion& before,
                                      const WindowResult& result, const std::vector<Leaver>& leavers,
                                      const Gathered& state) {
+    // Empty without a fluid: `solved` is then nowhere, and every grain is without velocities of
+    // contacts.
     const Motion& contact = result.motion;
     const auto& grains = state.motion.grains;
     const Limits most = limits(window, before, contact, state.motion);
@@ -319,6 +351,8 @@ MotionDefect MotionRule::check_state(const Window& window, const Motion& before,
         if (found > largest.defect) largest = {found, grains[at].id};
         if (found <= same_place()) continue;
         const double can = allowed(grain, before, most);
+        // One that moved with its kick but reports another velocity is left to
+        // KickRule::with_state, whose message says so.
         if (found <= can || has_moved_with_its_kick(grain, result.kicks, window.step)) continue;
         state.arrival.refuse(state.owners[at], text(grain, found, can, window.step),
                              how_grains_move);

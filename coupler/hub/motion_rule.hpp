@@ -11,7 +11,7 @@
 //     removed      a grain leaves where a side is free and it was at that side
 //
 // U is U^{n+1}, or U^{n+4/5} where grains may move with the velocities of their contacts
-// (coupling.positions: contact, and schemes that send the fluid's responses to the grains).
+// (coupling.positions: contact, and schemes whose grains solve contacts with the fluid's inertia).
 //
 // What a state may differ from its rule by is round-off. More only for a grain with a contact,
 // i.e. one with a contact impulse, or one near enough to others or a wall that impulses may have

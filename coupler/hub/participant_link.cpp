@@ -22,6 +22,7 @@ std::string ParticipantLink::rank_name(int rank) const {
 
 std::string ParticipantLink::who(int rank) const {
     const Hello& hello = ranks_[rank].hello;
+    // Neither hello nor start record: nothing is known but its number.
     if (hello.host.empty()) return rank_name(rank);
     return fmt::format("{} ({}, host {}, log {})", rank_name(rank), hello.adapter, hello.host,
                        hello.log_file);
@@ -32,6 +33,7 @@ std::string ParticipantLink::program() const {
 }
 
 void ParticipantLink::set_hello(int rank, Hello hello) {
+    // Its texts end in messages, logs and the record: mended before anything shows them.
     ranks_[rank].hello = received(std::move(hello));
     ranks_[rank].order.set_peer_name(who(rank));
 }
@@ -45,6 +47,8 @@ void ParticipantLink::go_on_after(std::int64_t windows) {
 }
 
 Envelope ParticipantLink::next_sent(int rank, Kind kind) {
+    // Throws where the kind is not due, so that a faulty scheme is found here and not by its
+    // partner.
     return ranks_[rank].order.next_sent(kind, from_coupler);
 }
 
@@ -67,6 +71,8 @@ FramedMessage ParticipantLink::unpack(Channel::Frame frame) const {
     }
 }
 
+// Takes what is there from all ranks, whether or not it is waited for now: one side may answer
+// while the other is due, and a failure counts as soon as it is here.
 bool ParticipantLink::pump() {
     bool any = false;
     while (auto frame = channel_.try_receive()) {
@@ -79,6 +85,7 @@ bool ParticipantLink::pump() {
 
 void ParticipantLink::take_in(int rank, FramedMessage message) {
     Rank& from = ranks_.at(rank);
+    // Against the call order before the payload is looked at.
     from.order.received(message.envelope, to_coupler);
     from.since = Clock::now();
     if (message.envelope.kind == Kind::failure) raise(rank, decode<Verdict>(message.payload()));
@@ -86,6 +93,7 @@ void ParticipantLink::take_in(int rank, FramedMessage message) {
 }
 
 void ParticipantLink::raise(int rank, const Verdict& verdict) const {
+    // The number is another program's: success, or one that is no exit code, counts as a failure.
     const ExitCode code = received_code(verdict.exit_code);
     const bool strange = static_cast<std::int64_t>(code) != verdict.exit_code;
     throw Failure(code, fmt::format("{}: {}{}", who(rank), received_text(verdict.reason),
@@ -96,6 +104,7 @@ void ParticipantLink::raise(int rank, const Verdict& verdict) const {
 }
 
 void ParticipantLink::refuse_payload(int rank, Kind kind, const std::string& fault) const {
+    // Of the order after this message: it is the window of the message itself.
     const std::int64_t window = ranks_[rank].order.window();
     const std::string when = window < 0 ? "at the start" : fmt::format("of window {}", window);
     throw Failure(
@@ -106,6 +115,7 @@ void ParticipantLink::refuse_payload(int rank, Kind kind, const std::string& fau
 }
 
 bool ParticipantLink::has_delivered(const Rank& rank, Kind kind) {
+    // The first one only: one rank's messages are used in the order of their sending.
     return !rank.inbox.empty() && rank.inbox.front().envelope.kind == kind;
 }
 
@@ -139,6 +149,8 @@ std::vector<FramedMessage> ParticipantLink::take_messages(Kind kind) {
 std::string ParticipantLink::state_of(int rank) const {
     const Rank& of = ranks_[rank];
     const double seconds = std::chrono::duration<double>(Clock::now() - of.since).count();
+    // All that is due comes from the same side (CallOrder::due): the first one tells who is waited
+    // for.
     const bool waits = of.order.due().front().from_coupler;
     const std::string round =
         of.order.iteration() > 0 ? fmt::format(", round {}", of.order.iteration()) : "";
@@ -160,12 +172,15 @@ bool ParticipantLink::gone() {
         try {
             const int peer = frame->peer;
             const Envelope envelope = FramedMessage(std::move(frame->bytes)).envelope;
+            // What is still under way from before the dismissal is thrown away, out of order or
+            // not.
             if (envelope.kind == Kind::farewell)
                 ranks_.at(peer).order.received(envelope, to_coupler);
         } catch (const MalformedPayload&) {  // discarded like all that is not a farewell
         }
     }
     return std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& rank) {
+        // Due only after the farewell of this rank.
         return rank.order.due().front().kind == Kind::release;
     });
 }

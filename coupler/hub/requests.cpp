@@ -16,6 +16,8 @@ bool RequestFiles::taken(const char* name) const {
 std::optional<ExitCode> RequestFiles::stop() const {
     int code = static_cast<int>(ExitCode::interrupted);
     {
+        // A text that is no number gives 0, and an empty file leaves the default: neither is
+        // `terminated`.
         std::ifstream file(folder_ / stop_file);
         if (file) file >> code;
     }
@@ -27,6 +29,7 @@ std::optional<ExitCode> RequestFiles::stop() const {
 }
 
 Requests RequestFiles::take() const {
+    // A file that appears after this look is taken before the next window.
     return {stop(), taken(write_file), taken(checkpoint_file)};
 }
 

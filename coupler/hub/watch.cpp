@@ -19,8 +19,12 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
     enter(timeline_, Timeline::Part::wait, fluid ? "wait for the fluid" : "wait for the grains",
           link.window());
     Patience patience;
+    // Frames are looked for before every look at the clock, so that what has come is never called
+    // late.
     for (;; patience.wait(any_in_transit())) {
         if (signal_ && *signal_) throw EndedFromOutside{};
+        // Of all participants, not only the one that is waited for: its partner's failure ends the
+        // wait.
         for (ParticipantLink* other : links_) other->pump();
         if (link.ready(kind)) break;
         if (patience.seconds() > hard_)
@@ -31,6 +35,7 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
             print_(fmt::format("still waiting for \"{}\" from {} after {:.0f} s\n{}",
                                kind_name(kind), role_name(link.role()), patience.seconds(),
                                wait_for_table()));
+            // soft, 2 soft, 4 soft, ...: a long stall does not fill the log.
             next_notice *= 2.0;
         }
     }

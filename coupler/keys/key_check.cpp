@@ -165,7 +165,9 @@ void check_entry(const KeyTable& table, const CaseEntry& entry, int dimension, S
                  CaseProblems& problems) {
     const KeySpec* found = find_key(table, entry.key);
     if (found == nullptr) return problems.push_back(unknown_key(table, entry));
+    // `key:` without a value is as good as no key, where there need not be one.
     if (entry.is_null && may_be_null(*found, dimension)) return;
+    // Before its value is looked at: in space a key may have other numbers, defaults and words.
     const KeySpec spec = in_dimension(*found, dimension);
     const KeySpec* key = &spec;
     CaseProblem problem = problem_of(entry, *key);
@@ -230,6 +232,7 @@ CheckedKeys check_keys(const KeyTable& table, const CaseEntries& entries) {
     const int dimension = dimension_of(entries);
     for (const CaseEntry& entry : entries.entries)
         check_entry(table, entry, dimension, checked.settings, checked.problems);
+    // Before conditional keys are asked for: whether they are needed may depend on defaults.
     fill_defaults(table, entries, dimension, checked.settings);
     for (const KeySpec& key : table)
         if (is_needed(key, checked.settings) && is_absent(entries.find(key.name), key, dimension))

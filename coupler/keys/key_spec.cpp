@@ -78,6 +78,7 @@ KeySpec of_space(KeySpec key) {
     if (key.need == Need::fallback) key.in_space.fallback = std::exchange(key.fallback, "");
     key.need = Need::conditional;
     key.when = "dimension: 3";
+    // Never asked for: in space its default is filled in, if it has one (key_check.cpp).
     key.required = [](const Settings&) { return false; };
     return key;
 }

@@ -14,6 +14,7 @@ template <class T>
 std::optional<T> parse_number(const std::string& text) {
     const char* begin = text.data();
     const char* end = begin + text.size();
+    // from_chars takes no plus sign.
     if (begin != end && *begin == '+') ++begin;
     T value{};
     const auto [stop, error] = std::from_chars(begin, end, value);

@@ -42,9 +42,11 @@ std::size_t edit_distance(const std::string& from, const std::string& to) {
         for (std::size_t j = 1; j <= n; ++j) {
             const std::size_t replace = last[j - 1] + (from[i - 1] == to[j - 1] ? 0 : 1);
             now[j] = std::min({last[j] + 1, now[j - 1] + 1, replace});
+            // Two neighbours in the wrong order are one error, not two.
             if (i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1])
                 now[j] = std::min(now[j], before[j - 2] + 1);
         }
+        // Three rows of the table are enough: this one, the last and, for the swap, the one before.
         before.swap(last);
         last.swap(now);
     }

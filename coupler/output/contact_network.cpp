@@ -10,6 +10,7 @@ namespace turbidite {
 namespace {
 
 bool same_pair(const ContactRecord& x, const ContactRecord& y) {
+    // Whatever the point (feature). At a wall a means nothing.
     return x.b == y.b && x.wall == y.wall && (x.wall >= 0 || x.a == y.a);
 }
 
@@ -32,6 +33,8 @@ class Sums {
         network_.virial.zz += p[2] * l[2] / step_;
         network_.virial.xz += 0.5 * (p[0] * l[2] + p[2] * l[0]) / step_;
         network_.virial.yz += 0.5 * (p[1] * l[2] + p[2] * l[1]) / step_;
+        // A film transmits a force, so it is part of the stress. It counts neither as a sliding
+        // point nor in the mean normal force.
         if (is_film(contact)) return;
         ++points_;
         sliding_ += (contact.status & ContactStatus::sliding) != 0 ? 1 : 0;
@@ -39,6 +42,7 @@ class Sums {
     }
 
     void add_link(const ContactRecord& contact) {
+        // Of grains with a link: those without one are counted apart.
         touched_.insert(contact.b);
         if (contact.wall >= 0) {
             ++network_.wall_links;
@@ -99,6 +103,7 @@ ContactNetwork contact_network(const std::vector<ContactRecord>& contacts, std::
     Sums sums(step, dimension);
     for (std::size_t k = 0; k < contacts.size(); ++k) {
         sums.add_point(contacts[k]);
+        // No link: the surfaces do not touch.
         if (is_film(contacts[k])) continue;
         if (k == 0 || !same_pair(contacts[k - 1], contacts[k])) sums.add_link(contacts[k]);
     }

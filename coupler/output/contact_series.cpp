@@ -20,6 +20,7 @@ double size_across(const Vec3& vector, const ContactRecord& contact) {
 }
 
 GrainId first_id(const ContactRecord& contact) {
+    // Walls are -1, -2, ...: ids of grains are not negative.
     return contact.wall < 0 ? contact.a : -1 - contact.wall;
 }
 
@@ -30,6 +31,8 @@ std::vector<Vec3> line_ends(const Motion& state) {
     ends.reserve(2 * state.contacts->size());
     for (const ContactRecord& contact : *state.contacts) {
         const Vec3& centre = state.grains.at(index.place(contact.b)).position;
+        // At a wall the contact point; across a cyclic side the nearest image of a, outside the
+        // box.
         ends.push_back(centre - contact.branch);
         ends.push_back(centre);
     }
@@ -46,6 +49,7 @@ void ContactSeries::write(double time, std::int64_t window, double step, const M
     if (!state.contacts) return;
     const std::string name = fmt::format("contacts_{:08d}.vtp", window);
     write_lines(name, step, state);
+    // The first contacts that are sent: programs that send none leave no empty series.
     if (!collection_) collection_.emplace(folder_ / series_name);
     collection_->add(time, {name});
 }
@@ -74,6 +78,7 @@ void ContactSeries::write_lines(const std::string& name, double step, const Moti
         vtk::integers(out, "feature", contacts, [](Contact c) { return c.feature; });
         vtk::scalars(out, "normal_force", contacts, normal_force);
         vtk::scalars(out, "tangential_force", contacts, [&](Contact c) {
+            // In the plane with a sign, in space the size of the part across the normal.
             return space ? size_across(c.impulse, c) / step : along(c, tangent(c));
         });
         vtk::scalars(out, "rolling_moment", contacts, [&](Contact c) {

@@ -8,6 +8,7 @@
 namespace turbidite {
 
 double step_for_courant(double step, double courant) {
+    // The Courant number is proportional to the step.
     const double wanted = step * largest_courant / courant;
     const double digit = std::pow(10.0, std::floor(std::log10(wanted)));
     return std::floor(wanted / digit) * digit;

@@ -16,6 +16,8 @@ std::vector<std::vector<std::size_t>> delaunay_cells(const std::vector<GridPoint
     std::vector<std::vector<std::size_t>> cells;
     cells.reserve(diagram.num_vertices());
     for (const auto& vertex : diagram.vertices()) {
+        // A vertex of the diagram is the centre of an empty circle; the cells around it are the
+        // points on it.
         std::vector<std::size_t> around;
         const auto* first = vertex.incident_edge();
         const auto* edge = first;

@@ -52,6 +52,7 @@ void GrainSeries::write_points(const std::string& name, double window, const Mot
     const auto of_kick = [&](Vec3 Kick::*part) {
         return [&by_id, part](const GrainState& g) {
             const auto at = by_id.find(g.id);
+            // Zero at t = 0 and without a fluid, where there are no kicks.
             return at == by_id.end() ? Vec3{} : at->second->*part;
         };
     };
@@ -81,6 +82,7 @@ void GrainSeries::write_points(const std::string& name, double window, const Mot
         vtk::vectors(out, "force", grains, of_kick(&Kick::force));
         vtk::vectors(out, "torque", grains, of_kick(&Kick::torque));
         vtk::vectors(out, "contact_force", grains,
+                     // The mean force of the window: F_c = J_c/dt
                      [&](Grain g) { return g.contact_impulse / window; });
         out << "</PointData>\n";
     });
@@ -95,6 +97,7 @@ void GrainSeries::write_outlines(const std::string& name, const Motion& state) c
         if (outline.empty()) continue;
         grains.push_back(&grain);
         corners.push_back(outline.size());
+        // Rows of R: x = centre + R (x_body, y_body, 0)
         const auto& [along_x, along_y, along_z] = rotation(grain.orientation);
         for (const auto& [u, v] : outline) {
             const double x = grain.radius * u, y = grain.radius * v;

@@ -27,9 +27,13 @@ Averages averages(const Motion& state, const ImmersedBodies& bodies) {
         }
         mean.speed += std::sqrt(speed2) / n;
         mean.front = std::max(mean.front, grain.position[0] + grain.radius);
+        // (M U^2 + omega . I omega)/2: about z in the plane; a sphere's I is the same in all
+        // directions.
         mean.kinetic_energy += 0.5 * (body.mass * speed2 + spin_energy);
+        // sum (M - m_f) y over sum M: times g the potential energy per mass
         mean.height += body.submerged_mass * grain.position[1];
         mean.mass += body.mass;
+        // V(R), whatever the hydrodynamic radius
         mean.solid += body.mass / grain.density;
     }
     if (mean.mass > 0.0) mean.height /= mean.mass;
@@ -55,6 +59,7 @@ History::History(const std::filesystem::path& file, const RunValues& run, const 
 History::History(const std::filesystem::path& file, const RunValues& run, const ShapeTable& shapes,
                  std::int64_t length)
     : file_(file), bodies_(run, shapes), run_(run) {
+    // Rows that were written after the checkpoint are of windows that are played again.
     cut_to(file, length);
     out_.open(file, std::ios::in | std::ios::out | std::ios::ate);
     if (!out_) throw Failure(ExitCode::participant_failed, "cannot write " + file.string());
@@ -79,6 +84,7 @@ double History::pores(const Motion& state) const {
 }
 
 void History::append(const Row& row) {
+    // The end of the last whole row, should this one not fit on the disk.
     const auto whole = out_.tellp();
     out_ << history_line(values(row)) << std::endl;
     if (out_) return;

@@ -59,6 +59,7 @@ std::string fabric(Cell c, double Fabric::*value) {
 
 /// Weight per area of a layer of solid one diameter high: rho_s g D.
 double pressure_unit(Cell c) {
+    // mass over volume of all grains: rho_s
     return c.mean.mass / c.mean.solid * c.run.gravity * c.run.diameter;
 }
 /// sigma = virial / V over rho_s g D, V the volume of the grains and the pores between them.

@@ -35,6 +35,7 @@ void visit_joint(Code& code, JointMaxima& joint) {
 
 template <class Code, class Value, class Visit>
 void visit_maybe(Code& code, std::optional<Value>& value, Visit visit) {
+    // One function for both directions: a Writer gets the flag as it is, a Reader sets it.
     bool given = value.has_value();
     code(given);
     if (given && !value) value.emplace();
@@ -102,6 +103,7 @@ void cut_to(const std::filesystem::path& file, std::int64_t length) {
     std::error_code error;
     const std::uintmax_t present = std::filesystem::file_size(file, error);
     const auto wanted = static_cast<std::uintmax_t>(length);
+    // A file may have become longer since the checkpoint, never shorter.
     if (error || present < wanted)
         throw Failure(
             ExitCode::bad_input,

@@ -38,6 +38,7 @@ class Grid {
                 high[axis] = std::max(high[axis], x);
             }
         const double widest = std::max(high[0] - low[0], high[1] - low[1]);
+        // All sites and images stay within 2^30 steps of the middle (delaunay.hpp).
         scale_ = grid_reach / (0.5 * widest + margin + std::max(period[0], period[1]));
         for (int axis = 0; axis < 2; ++axis) middle_[axis] = 0.5 * (low[axis] + high[axis]);
     }
@@ -84,6 +85,8 @@ std::vector<Site> all_sites(const std::vector<SolidGrain>& grains, double diamet
     std::vector<Site> sites;
     for (const SolidGrain& grain : grains) sites.push_back({grain, grid.place(grain), true});
     for (int axis = 0; axis < 2; ++axis)
+        // Along y the images along x are repeated as well: corners of a box that is cyclic both
+        // ways.
         if (period[axis] > 0.0) add_images(sites, grid, axis, period[axis], margin);
     return sites;
 }
@@ -91,6 +94,7 @@ std::vector<Site> all_sites(const std::vector<SolidGrain>& grains, double diamet
 /// Angle between two sides [rad].
 double angle(const SolidGrain& at, const SolidGrain& b, const SolidGrain& c) {
     const double x1 = b.x - at.x, y1 = b.y - at.y, x2 = c.x - at.x, y2 = c.y - at.y;
+    // |a x b| and a . b: keeps its digits in thin triangles, where acos loses them.
     return std::atan2(std::abs(x1 * y2 - y1 * x2), x1 * x2 + y1 * y2);
 }
 
@@ -108,6 +112,7 @@ double pore(const Corners& corner, double diameter) {
     if (!(sides <= 4.0 * area * diameter * slack) || area == 0.0) return 0.0;
     double solid = 0.0;
     for (int k = 0; k < 3; ++k)
+        // V_i angle_i, over 2 pi below
         solid += corner[k]->area * angle(*corner[k], *corner[(k + 1) % 3], *corner[(k + 2) % 3]);
     return area - solid / (2.0 * std::numbers::pi);
 }
@@ -125,6 +130,8 @@ double pore_volume(const std::vector<SolidGrain>& grains, double diameter, const
         const auto real =
             std::count_if(cell.begin(), cell.end(), [&](std::size_t i) { return sites[i].real; });
         double pores = 0.0;
+        // A cell of more than three vertices (a square of the loosest lattice) as a fan of
+        // triangles, whose circle is the same.
         for (std::size_t k = 2; k < cell.size(); ++k)
             pores += pore({&sites[cell[0]].grain, &sites[cell[k - 1]].grain, &sites[cell[k]].grain},
                           diameter);

@@ -13,9 +13,11 @@ constexpr double voxels_per_diameter = 8.0;
 // Squared distances are whole numbers of 1/16 squared voxel, up to three times `farthest` squared.
 constexpr double fractions = 16.0;
 constexpr std::int64_t farthest = 10;  // [voxels], above D and what it is rounded by
+// Above 3 x 16 x 10^2 = 4800, and small enough that 20000 and a square of 10 steps fit 16 bits.
 constexpr std::int16_t far_away = 20000;
 
 std::int16_t square_of(double distance) {
+    // [1/16 squared step along x]
     return static_cast<std::int16_t>(std::lround(fractions * distance * distance));
 }
 
@@ -31,6 +33,7 @@ class Voxels {
             const double length = periodic_[axis] ? period[axis] : high - low + 2.0 * margin;
             const double edge = diameter / voxels_per_diameter;
             count_[axis] = std::max<std::int64_t>(1, std::llround(length / edge));
+            // A whole number of voxels is the period; D/8 elsewhere.
             edge_[axis] = periodic_[axis] ? length / static_cast<double>(count_[axis]) : edge;
             origin_[axis] = periodic_[axis] ? 0.0 : low - margin;
         }
@@ -58,6 +61,7 @@ class Voxels {
     void each_in(const SolidBall& ball, Visit visit) const {
         std::array<std::int64_t, 3> from{}, to{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
+            // In indices, of which i is the centre of voxel i.
             const double at = (ball.centre[axis] - origin_[axis]) / edge_[axis] - 0.5;
             const double reach = ball.radius / edge_[axis];
             from[axis] = static_cast<std::int64_t>(std::ceil(at - reach));
@@ -138,6 +142,7 @@ class AxisTransform {
             std::int16_t* result = to + at(q);
             std::copy_n(from + at(q), size, result);
             for (std::int64_t k = 1; k <= farthest; ++k)
+                // Sites beyond a side that is not cyclic do not exist.
                 for (const std::int64_t p : {q - k, q + k})
                     if (periodic_ || (p >= 0 && p < count_))
                         lower(result, from + at(wrapped(p)), size,
@@ -196,7 +201,9 @@ double pore_volume(const std::vector<SolidBall>& balls, double diameter, const V
                    [](std::uint8_t is) { return is ? std::int16_t{0} : far_away; });
     transform(squares, voxels);
     // A surface lies half a step beyond the outermost centres in it, on average.
+    // (D + half a step)^2
     const std::int16_t limit = square_of(voxels.across() + 0.5);
+    // The centres of empty balls of radius D become the sites of the second transform.
     for (std::int16_t& square : squares) square = square >= limit ? std::int16_t{0} : far_away;
     transform(squares, voxels);
     std::size_t pores = 0;

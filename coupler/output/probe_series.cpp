@@ -27,12 +27,14 @@ std::int64_t ProbeSeries::length() {
 }
 
 void ProbeSeries::append(double time, const std::vector<double>& values) {
+    // A fluid without probes sends none, and there is no file.
     if (values.empty()) return;
     const std::size_t per_point = 1 + static_cast<std::size_t>(run_.dimension);
     if (!out_.is_open()) begin(values.size() / per_point);
     const double u = run_.velocity;
     out_ << fmt::format("{:.10g}", time / run_.time);
     for (std::size_t k = 0; k < values.size(); ++k)
+        // p/rho_f over u_c^2, then the velocities over u_c
         out_ << fmt::format(",{:.10g}", values[k] / (k % per_point == 0 ? u * u : u));
     out_ << std::endl;
     if (!out_)

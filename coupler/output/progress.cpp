@@ -122,9 +122,11 @@ void Progress::log(const std::string& text) {
 }
 
 void Progress::show(const Row& row, bool due) {
+    // On a terminal the line is rewritten in between; a log gets the windows with output only.
     if (!due && !(terminal_ && Clock::now() - last_shown_ > refresh)) return;
     last_shown_ = Clock::now();
     const double per_window =
+        // Of this part of the run: what an earlier one took is not known to be as fast.
         seconds_since(start_) / static_cast<double>(row.step - windows_before_);
     if (due) log_ << log_line(row, run_, per_window) << std::endl;
     const std::string line = progress_line(row, run_, per_window);

@@ -42,6 +42,7 @@ RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem
 OutputState RunOutput::saved() {
     OutputState state{last_.state, statistics_, since_row_, {}};
     state.lengths.history = history_.length();
+    // The checkpoint will say how long this file is: so much of it must be there after a power cut.
     put_on_disk(history_.file());
     state.lengths.grains = grains_.collection().length();
     put_on_disk(grains_.collection().file());
@@ -75,7 +76,9 @@ void RunOutput::record(const Window& window, WindowResult result, double waited)
     WallTimes spent;
     spent.step = lap();
     spent.fluid = last_.kicks.report.wall_seconds;
+    // Two calls of the adapter: advance and apply_kick.
     spent.grains = last_.motion.report.wall_seconds + last_.state.report.wall_seconds;
+    // What the coupler did itself; two clocks may differ by their rounding.
     spent.coupling = std::max(0.0, spent.step - waited);
     since_row_.take_in(spent, last_.motion.report.converged, work);
 }

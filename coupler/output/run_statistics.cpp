@@ -30,6 +30,7 @@ double ContactResiduals::largest() const {
 double ContactResiduals::quantile(double share) const {
     if (values_.empty()) return 0.0;
     std::vector<double> sorted = values_;
+    // The smallest value with at least this share of all values at or below it.
     const auto rank =
         static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(sorted.size()))) - 1;
     const auto at = sorted.begin() + std::max<std::ptrdiff_t>(rank, 0);

@@ -32,6 +32,7 @@ std::vector<RunWarning> run_warnings(const RunStatistics& statistics, const Solv
 std::string first_large_courant(double before, const RunStatistics& statistics,
                                 const RunValues& run) {
     const double now = courant_of(statistics);
+    // Only in the window in which the largest number crosses the limit.
     if (before > largest_courant || !(now > largest_courant)) return "";
     return fmt::format("the Courant number is {:.2g} in window {}. {}", now,
                        statistics.windows_done - 1, advice(now, run));

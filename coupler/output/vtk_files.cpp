@@ -62,6 +62,7 @@ Collection::Collection(std::filesystem::path file) : file_(std::move(file)) {
 Collection::Collection(std::filesystem::path file, std::int64_t length) : file_(std::move(file)) {
     cut_to(file_, length);
     out_.open(file_, std::ios::in | std::ios::out | std::ios::ate);
+    // Puts the end tags behind the last entry that stays.
     write("");
 }
 

@@ -120,6 +120,7 @@ turbidite_window c_window(const Window& window) {
     return {window.index, window.time, window.step, window.write_output};
 }
 
+// C has no empty values: NaN in a report means that the program does not have the number.
 std::optional<double> unless_nan(double value) {
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
@@ -149,6 +150,7 @@ Motion motion(const turbidite_state& state) {
 }
 
 /// The struct of the first header, which has no size in the call.
+// Members were added behind those of the first header, never between them.
 constexpr std::size_t first_size = offsetof(turbidite_adapter, restores_within_window);
 static_assert(offsetof(turbidite_adapter, dimensions) + sizeof(turbidite_adapter::dimensions) ==
                   sizeof(turbidite_adapter),
@@ -157,6 +159,8 @@ static_assert(offsetof(turbidite_adapter, dimensions) + sizeof(turbidite_adapter
 /// Why a struct of this size cannot be used; empty if it can.
 std::string refusal(const turbidite_adapter* given, std::size_t size) {
     const char* const bytes = reinterpret_cast<const char*>(given);
+    // A program of a newer header may have more members: they are harmless as long as they are
+    // zero.
     const bool more = size > sizeof *given && std::any_of(bytes + sizeof *given, bytes + size,
                                                           [](char byte) { return byte != 0; });
     if (size >= first_size && !more) return {};
@@ -170,6 +174,7 @@ std::string refusal(const turbidite_adapter* given, std::size_t size) {
 /// Members that the program does not know are zero.
 turbidite_adapter known_members(const turbidite_adapter* given, std::size_t size) {
     turbidite_adapter known{};
+    // Only as many bytes as the program has: an older struct ends earlier.
     std::memcpy(&known, given, std::min(size, sizeof known));
     return known;
 }
@@ -182,6 +187,7 @@ std::vector<std::string> texts(const char* const* list) {
 
 /// Of turbidite_adapter::dimensions.
 std::int32_t dimension(std::int64_t given) {
+    // Zero is also what a program of an older header has: those played in the plane.
     if (given == 0) return 2;
     if (given == TURBIDITE_BOTH_DIMENSIONS) return both_dimensions;
     if (given == 2 || given == 3) return static_cast<std::int32_t>(given);
@@ -196,6 +202,7 @@ class CAdapter final : public GrainsAdapter {
         : refusal_(refusal(functions, size)), c_(known_members(functions, size)) {}
 
     Hello describe() const override {
+        // Not in the constructor: here the coupler hears of it, and ends the run for all.
         if (!refusal_.empty()) throw Failure(ExitCode::handshake_refused, refusal_);
         Hello hello;
         hello.adapter = text(c_.name);
@@ -254,8 +261,11 @@ class CAdapter final : public GrainsAdapter {
     void call(const char* name, Function function, Arguments... arguments) const {
         if (function == nullptr)
             throw std::logic_error(std::string("turbidite_adapter has no function ") + name);
+        // The text of an earlier call must not fail this one.
         failing = {};
         const int status = function(c_.self, arguments...);
+        // turbidite_fail counts whatever the function returns; a look-up that failed counts like
+        // it.
         if (failing.unphysical) throw PhysicsRefused(failing.text);
         if (!failing.text.empty()) throw std::runtime_error(failing.text);
         if (status != 0)
@@ -267,6 +277,7 @@ class CAdapter final : public GrainsAdapter {
     Motion answer_of(const char* name, Function function, Arguments... arguments) const {
         turbidite_state answer;
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        // What the program does not fill in: no counts, nothing measured, converged.
         answer.report = {0, 0, 0, none, 0.0, 0.0, 1, none, none, none};
         call(name, function, arguments..., &answer);
         return motion(answer);

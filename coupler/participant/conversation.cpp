@@ -15,6 +15,7 @@ FramedMessage Conversation::next() {
             enter(timeline_, Timeline::Part::transfer, "receive", order_.window());
             return FramedMessage(std::move(frame->bytes));
         }
+        // Only this wait is limited: what the adapter computes in between is not counted.
         if (patience.seconds() > limit_)
             throw CouplerSilent("the coupler has been silent for " +
                                 std::to_string(static_cast<int>(limit_)) + " s while " +
@@ -27,11 +28,14 @@ void Conversation::send(Kind kind) {
 }
 
 void Conversation::see_off() {
+    // in_transit() ends this when the other side is busy: the rest moves when it looks again.
     for (Patience patience; !channel_.flushed() && channel_.in_transit();) patience.wait(true);
 }
 
 FramedMessage Conversation::receive() {
     FramedMessage message = next();
+    // Before a dismissal is obeyed as well: kind and place are checked, a lost message is not held
+    // against it.
     order_.received(message.envelope, from_coupler);
     if (message.envelope.kind == Kind::dismiss) throw Dismissed{decode<Verdict>(message.payload())};
     return message;
@@ -49,6 +53,7 @@ Verdict Conversation::fail(const Verdict& verdict) {
     send(Kind::failure, verdict);
     for (;;) {  // frames still in flight are no longer needed
         const FramedMessage message = next();
+        // Not passed to the order: what is discarded does not count as received.
         if (message.envelope.kind != Kind::dismiss) continue;
         order_.received(message.envelope, from_coupler);
         return decode<Verdict>(message.payload());
@@ -57,6 +62,7 @@ Verdict Conversation::fail(const Verdict& verdict) {
 
 void Conversation::say_farewell() {
     send(Kind::farewell);
+    // `release`: all ranks of all programs have said farewell.
     order_.received(next().envelope, from_coupler);
 }
 

@@ -38,6 +38,7 @@ std::string hash_of_run(const std::string& run_folder) {
 }
 
 MPI_Comm own_communicator(Role role, std::uintptr_t given) {
+    // A host that has split the world already, as YADE's mpy does, gives its own communicator.
     if (given == 0) return split_world(role);
     return reinterpret_cast<MPI_Comm>(given);  // Open MPI's handles are pointers
 }
@@ -52,9 +53,11 @@ struct Membership::State {
         PMPI_Comm_rank(local, &rank);
         PMPI_Comm_size(local, &ranks);
         run_folder = launch.run_folder;
+        // Rank and size first: several ranks have a log each.
         log = log_file(run_folder, role, rank, ranks);
         redirect_output(log);
         hash = hash_of_run(launch.run_folder);
+        // The ranks of this program may talk to each other from here on, before the coupler is met.
         if (launch.joined) launch.joined(MPI_Comm_c2f(local));
         channel = std::make_unique<IntercommChannel>(join_coupler(local, role));
     }
@@ -98,9 +101,11 @@ void Membership::abort(const std::exception& error) {
     const auto code = static_cast<int>(failure ? failure->code() : ExitCode::participant_failed);
     std::fprintf(stderr, "turbidite: %s: %s\n", role_name(state_->role), error.what());
     std::fflush(nullptr);
+    // Before the abort, after which mpirun reports nothing but a code.
     write_first_end(state_->run_folder,
                     {static_cast<ExitCode>(code), rank_name(state_->role, state_->rank),
                      std::string("gave up: ") + error.what()});
+    // Of the real world: the whole job ends.
     PMPI_Abort(MPI_COMM_WORLD, code);
     _exit(code);
 }

@@ -50,6 +50,7 @@ Motion ScriptedGrains::initialise(const Settings& settings, const ShapeTable& sh
 
 void ScriptedGrains::touch_floor(GrainState& grain, double mass, double step) {
     const double gap = grain.position[1] - grain.radius - floor_;
+    // u_n + g/dt >= 0 with the full dt: the grain ends the window on the floor and not in it.
     const double impulse = std::max(0.0, -mass * (grain.velocity[1] + gap / step));
     grain.velocity[1] += impulse / mass;
     grain.contact_impulse = {0.0, impulse, 0.0};
@@ -84,8 +85,10 @@ Motion ScriptedGrains::advance(const Window& window, const std::vector<FreeRespo
             const FreeResponse& response = *by_id.at(grain.id);
             grain.velocity = response.velocity;
             grain.angular_velocity = response.angular_velocity;
+            // The fluid's inertia along y, the floor's normal.
             mass = response.inertia[upper_entry(1, 1)];
         } else if (!grain.prescribed) {
+            // (M - m_f) g over the effective mass.
             grain.velocity[1] -= body.submerged_mass / mass * gravity_ * window.step;
         }
         if (!grain.prescribed) touch_floor(grain, mass, window.step);
@@ -104,6 +107,8 @@ Motion ScriptedGrains::apply_kick(const Window& window, const std::vector<Kick>&
             grain.velocity = by_id.at(grain.id)->velocity;
             grain.angular_velocity = by_id.at(grain.id)->angular_velocity;
         }
+        // With responses grains move with their contact velocities, which keep out of the floor
+        // (`joint`).
         const Vec3& carrier = answered_ ? contact_velocities_[i] : grain.velocity;
         grain.position = grain.position + window.step * carrier;
         grain.orientation = rotated(grain.orientation, window.step * grain.angular_velocity);
@@ -150,6 +155,7 @@ Box ScriptedFluid::initialise(const Settings& settings, const ShapeTable& shapes
     const double slice = run.size[0] / ranks_;
     box_ = {{rank_ * slice, -everywhere, -everywhere},
             {(rank_ + 1) * slice, everywhere, everywhere}};
+    // The outermost slices have no end: every centre has an owner, also beyond the sides.
     if (rank_ == 0) box_.lower[0] = -everywhere;
     if (rank_ + 1 == ranks_) box_.upper[0] = everywhere;
     return box_;
@@ -170,6 +176,7 @@ ScriptedFluid::DraggedGrain ScriptedFluid::dragged(const GrainState& grain, doub
     DraggedGrain motion;
     motion.id = grain.id;
     motion.prescribed = grain.prescribed;
+    // A = M_eff + gamma dt
     motion.mass = body.effective_mass + drag_ * step;
     motion.inertia = body.effective_inertia(2, 2);
     // (M_eff + gamma dt) U = M_eff U^n + J
@@ -190,6 +197,7 @@ void ScriptedFluid::let_fall(const Window& window, const std::vector<GrainState>
 
 void ScriptedFluid::correct(const Window& window, const std::vector<GrainState>& grains) {
     reach("correct", window.index);
+    // `split`: nothing was let fall in this window.
     const bool first = grains_.empty();
     std::size_t at = 0;
     for (const GrainState& grain : grains) {
@@ -203,6 +211,7 @@ void ScriptedFluid::correct(const Window& window, const std::vector<GrainState>&
             grains_.back().pushed = grain.contact_impulse;
             grains_.back().angular_pushed = grain.contact_angular_impulse;
         }
+        // They must come in the same order each time: the place alone says which is which.
         push(grains_.at(at++), grain);
     }
 }
@@ -229,6 +238,8 @@ FreeResponse ScriptedFluid::response(const DraggedGrain& grain) const {
         response.angular_velocity = grain.angular_velocity;
         return response;
     }
+    // U' - A^-1 J with the inertia that is sent, right or misjudged: so the rounds converge to the
+    // true answer either way.
     response.velocity = grain.velocity - 1.0 / mass * grain.pushed;
     response.angular_velocity = grain.angular_velocity - 1.0 / inertia * grain.angular_pushed;
     for (std::size_t i = 0; i < 6; ++i)

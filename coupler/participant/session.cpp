@@ -45,7 +45,9 @@ bool Session::guarded(Action action) {
         action();
         return true;
     } catch (const Dismissed& dismissed) {
+        // The coupler has ended the run, whatever this side was doing. Nothing to report.
         verdict = dismissed.verdict;
+        // Nobody is there to hear of a failure: the caller aborts the job.
     } catch (const CouplerSilent&) {
         throw;
     } catch (const Failure& failure) {
@@ -61,6 +63,7 @@ bool Session::guarded(Action action) {
     }
     phase_ = Phase::over;
     talk_->outcome = {static_cast<ExitCode>(verdict.exit_code), verdict.reason};
+    // Also after a failure: the process leaves when all others may (docs/decisions/job.md).
     conversation.say_farewell();
     return false;
 }
@@ -68,6 +71,7 @@ bool Session::guarded(Action action) {
 bool Session::start() {
     if (phase_ != Phase::made)
         throw std::logic_error("start() was called a second time: call it once, then step()");
+    // Before begin(): one that fails has had its start.
     phase_ = Phase::started;
     return guarded([this] { begin(); });
 }
@@ -88,6 +92,8 @@ bool Session::step() {
             "step() was called after the end of the run: stop when start() or step() returns "
             "false");
     return guarded([this] {
+        // Saves and restores come before `window`; from then on to the last message of the window.
+        // A host with its own loop gets the control back exactly between two windows.
         for (bool within = false; !within || talk_->conversation.inside_window();) {
             const FramedMessage message = talk_->conversation.receive();
             within = !between_windows(message);
@@ -96,6 +102,7 @@ bool Session::step() {
             else
                 checkpoint(message);
         }
+        // The host is not inside MPI until the next step: a long last frame would not move.
         talk_->conversation.see_off();
     });
 }
@@ -134,7 +141,9 @@ class RoleSession : public Session {
     Settings shake_hands() {
         Conversation& talk = talk_->conversation;
         talk.send(Kind::hello, complete(adapter_.describe(), role_, talk_->identity));
+        // Only after the coupler has found every program of the job compatible.
         Settings settings = decode<Settings>(talk.receive(Kind::settings).payload());
+        // From here on both ends check every message against the same list.
         talk.set_window_order(decode<Order>(talk.receive(Kind::order).payload()));
         talk.set_limit(margin_over_coupler * settings.real("limits.stall_hard"));
         if (settings.has("output.timeline") && settings.flag("output.timeline"))
@@ -149,6 +158,7 @@ class RoleSession : public Session {
         const auto order = decode<RestoreOrder>(message.payload());
         restore(order);
         talk_->conversation.send(Kind::restored);
+        // After the answer, which still belongs to "before the first window".
         talk_->conversation.go_on_after(order.windows);
     }
 
@@ -168,6 +178,7 @@ class RoleSession : public Session {
         const std::int64_t window = talk_->conversation.window();
         Timeline* timeline = talk_->timeline ? &*talk_->timeline : nullptr;
         enter(timeline, Timeline::Part::compute, what, window);
+        // At the end of the call, also of one that throws.
         struct AtEnd {
             Timeline* timeline;
             std::int64_t window;
@@ -214,6 +225,8 @@ class RoleSession : public Session {
     void restore(const RestoreOrder& order) {
         const auto folder = in_run_folder(order.folder);
         const Identity& own = talk_->identity;
+        // The usual case: this rank's own file. With another number of ranks every rank looks at
+        // all files and takes its part.
         if (order.parts.size() == static_cast<std::size_t>(own.ranks)) {
             PieceReader file(folder, order.parts[own.rank]);
             return restore_own(adapter_, file);
@@ -269,6 +282,8 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
             case Kind::window:
                 window_ = decode<Window>(message.payload());
                 solved_ = false;
+                // `split`: contacts are solved at once, without the fluid. Under `joint` and
+                // `sub-iterated` a contact_input comes first.
                 if (due(Kind::motion)) send(Kind::motion, solve({}));
                 return;
             case Kind::contact_input:
@@ -287,6 +302,7 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
 
     /// If the order requests no motion (`dry`), the state is the only report of the window.
     Motion move(const Kicks& kicks) {
+        // The time of a solve whose motion is never sent goes into the state.
         const double unreported = solved_ ? 0.0 : solve({}).report.wall_seconds;
         Motion state =
             compute("apply_kick", [&] { return adapter_.apply_kick(window_, kicks.kicks); });
@@ -314,6 +330,7 @@ class FluidSession final : public RoleSession<FluidAdapter> {
         switch (message.envelope.kind) {
             case Kind::window:
                 window_ = decode<Window>(message.payload());
+                // Steps 1 to 3 (Topin 2011), under `split` beside the contacts of the same window.
                 return compute("advance", [&] { adapter_.advance(window_); });
             case Kind::bodies: {
                 const Motion bodies = decode<Motion>(message.payload());

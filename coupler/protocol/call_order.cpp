@@ -61,6 +61,8 @@ Order start_order(Role role) {
                    {Kind::settings, from_coupler},
                    {Kind::order, from_coupler},
                    {Kind::shapes, from_coupler}};
+    // The fluid knows its box only when it has read its case; grains are given theirs and answer
+    // with the state of t = 0.
     if (role == Role::fluid) {
         order.push_back({Kind::domain, to_coupler});
     } else {
@@ -74,6 +76,7 @@ void check_window_order(const Order& order) {
     const auto refuse = [](const std::string& why) {
         throw std::invalid_argument("the order of a window " + why);
     };
+    // The first message of a window opens it, and advance() counts windows by it.
     if (order.empty() || order.front().kind != Kind::window || !order.front().from_coupler ||
         order.front().times != Times::once)
         refuse("does not begin with \"window\" from the coupler");
@@ -83,11 +86,14 @@ void check_window_order(const Order& order) {
             std::end(window_kinds))
             refuse("holds \"" + kind_name(step.kind) + "\", which is not a message of a window");
         if (i > 0 && step.kind == Kind::window) refuse("holds \"window\" twice");
+        // Where rounds begin or end the coupler speaks: a participant whose turn it were would not
+        // know whether to begin another round.
         const bool border = i > 0 && step.times != order[i - 1].times;
         if (border && !step.from_coupler)
             refuse("lets \"" + kind_name(step.kind) +
                    "\" of the participant follow where only the coupler decides on another round");
     }
+    // Nothing would tell the participant that the last round is over.
     if (order.back().times == Times::per_round) refuse("ends with a round");
 }
 
@@ -100,6 +106,7 @@ void CallOrder::set_window_order(Order order) {
 }
 
 bool CallOrder::begins_round(std::size_t place) const {
+    // The first of the consecutive `per_round` steps.
     return order_[place].times == Times::per_round &&
            (place == 0 || order_[place - 1].times == Times::once);
 }
@@ -115,11 +122,13 @@ std::vector<std::size_t> CallOrder::due_places() const {
 }
 
 std::vector<Step> CallOrder::due() const {
+    // An end overrides whatever the window was waiting for.
     if (said_farewell_) return {{Kind::release, from_coupler}};
     if (dismissed_) return {{Kind::farewell, to_coupler}};
     if (answer_due_) return {{*answer_due_, to_coupler}};
     std::vector<Step> steps;
     for (const std::size_t place : due_places()) steps.push_back(order_[place]);
+    // Between two windows, or before the first one.
     if (started_ && at_ == 0)
         for (const auto& [asked, answer] : between_windows) steps.push_back({asked, from_coupler});
     return steps;
@@ -135,6 +144,8 @@ bool CallOrder::is_due(Kind kind, bool sent_by_coupler) const {
 std::string CallOrder::due_text() const {
     std::string text;
     const bool between = started_ && at_ == 0 && !answer_due_ && !dismissed_;
+    // save and restore are possible there as well, but nobody waits for them: only `window` is
+    // named.
     for (const Step& step : between ? std::vector<Step>{order_.front()} : due())
         text += (text.empty() ? "\"" : " or \"") + kind_name(step.kind) + "\"";
     return text;
@@ -158,6 +169,7 @@ void CallOrder::demand(Kind kind, bool sent_by_coupler, const char* verb) const 
 void CallOrder::advance(Kind kind) {
     if (kind == Kind::dismiss) dismissed_ = true;
     if (kind == Kind::farewell) said_farewell_ = true;
+    // After a dismissal the place in the order means nothing. A failure does not move it either.
     if (dismissed_ || kind == Kind::failure) return;
     for (const auto& [asked, answer] : between_windows) {
         if (kind == asked) answer_due_ = answer;
@@ -165,14 +177,17 @@ void CallOrder::advance(Kind kind) {
         if (kind == asked || kind == answer) return;
     }
     for (const std::size_t place : due_places())
+        // After a round: on to the step behind it, or back to its first one.
         if (order_[place].kind == kind) at_ = place;
     if (kind == Kind::window) ++window_, iteration_ = 0;
+    // Before at_ moves on, so that the first message of a round already has its number.
     if (begins_round(at_)) ++iteration_;
     if (++at_ == order_.size()) begin_window_order();
 }
 
 void CallOrder::begin_window_order() {
     at_ = 0;
+    // The last message of a window leads to the first of the next one.
     if (started_) return;
     if (window_order_.empty())
         throw OrderViolation(peer_ + ": the start is over, but the order of a window is not known");
@@ -181,6 +196,7 @@ void CallOrder::begin_window_order() {
 }
 
 Envelope CallOrder::next_sent(Kind kind, bool sent_by_coupler) {
+    // The same test as at the other end: a wrong call is found before it leaves.
     demand(kind, sent_by_coupler, "about to send");
     advance(kind);
     return {kind, window_, iteration_, counter(sent_by_coupler)++};
@@ -191,6 +207,7 @@ void CallOrder::received(const Envelope& envelope, bool sent_by_coupler) {
     // Failure, dismissal and farewell are accepted even after a message was lost.
     const bool heard = may_interrupt(envelope.kind, sent_by_coupler) || dismissed_;
     advance(envelope.kind);
+    // advance() first: the envelope has the window and the round in which the message counts.
     const std::int64_t sequence = counter(sent_by_coupler)++;
     const bool expected = envelope.window == window_ && envelope.iteration == iteration_ &&
                           envelope.sequence == sequence;

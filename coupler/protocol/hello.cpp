@@ -56,6 +56,7 @@ std::vector<std::string> mismatches(const Hello& hello, const Expectation& expec
     report.demand(hello.protocol_major == protocol_major, "protocol version",
                   version(hello.protocol_minor, hello.protocol_major),
                   std::to_string(protocol_major) + ".x");
+    // Minor versions of another major one mean nothing: one sentence is enough.
     report.demand(hello.protocol_major != protocol_major || hello.protocol_minor >= oldest_minor,
                   "protocol version", version(hello.protocol_minor),
                   version(oldest_minor) + " or later (rebuild the adapter)");
@@ -67,9 +68,11 @@ std::vector<std::string> mismatches(const Hello& hello, const Expectation& expec
                   "dimension", std::to_string(hello.dimension), std::to_string(expected.dimension));
     report.demand(hello.ranks == expected.ranks, "number of ranks", std::to_string(hello.ranks),
                   std::to_string(expected.ranks));
+    // Found where a program was started by hand on another run folder: it would read other files.
     report.demand(hello.case_hash.empty() || hello.case_hash == expected.case_hash,
                   "hash of the resolved case", hello.case_hash,
                   expected.case_hash + " (was it started on another run folder?)");
+    // Capabilities count only where this case needs them.
     report.demand(!expected.effective_inertia || hello.capabilities.effective_inertia,
                   "support for effective inertia", "absent",
                   "it for coupling.scheme: " + expected.scheme + " (or use split)");

@@ -13,6 +13,7 @@ constexpr double rounding = 1e-9;  // relative, of lengths from a case
 struct Growth {
     double ratio, largest;
 
+    // h_k = min(h r^k, L) with h = 1: each from the one before, the first from the last equal row.
     std::vector<double> heights(int rows) const {
         std::vector<double> all;
         double next = 1.0;
@@ -31,6 +32,7 @@ struct Growth {
     int rows_to(double room) const {
         int rows = 0;
         double reached = 0.0, next = 1.0;
+        // The rounding keeps a room that r fills exactly from getting one row more.
         while (reached < room * (1.0 - rounding)) {
             reached += next = std::min(next * ratio, largest);
             ++rows;
@@ -46,6 +48,8 @@ Growth growth_of(const Settings& settings) {
 /// The ratio up to that of `most` with which so many rows fill `room`, by bisection.
 double fitted_ratio(const Growth& most, int rows, double room) {
     double low = 1.0, high = most.ratio;
+    // The sum grows with r, between rows (r = 1) and at least `room` (r of the case): one root. 60
+    // halvings are beyond the last digit of a double.
     for (int halving = 0; halving < 60; ++halving) {
         const double middle = 0.5 * (low + high);
         (Growth{middle, most.largest}.sum(rows) < room ? low : high) = middle;
@@ -56,6 +60,7 @@ double fitted_ratio(const Growth& most, int rows, double room) {
 MeshRows equal_rows(double height, double top) {
     MeshRows rows;
     rows.equal = static_cast<int>(std::lround(top / height));
+    // Equal rows end at the top exactly; h gives way by as little as whole rows need.
     rows.height = top / rows.equal;
     return rows;
 }
@@ -78,6 +83,7 @@ std::optional<MeshRows> mesh_rows(const Settings& settings, double top) {
     if (!(room > 0.0)) return std::nullopt;
     rows.equal = static_cast<int>(equal);
     const int count = most.rows_to(room);
+    // Even rows of height h would be too high: n rows fit only if some were lower.
     if (count > room * (1.0 + rounding)) return std::nullopt;
     rows.ratio = fitted_ratio(most, count, room);
     rows.stretched = Growth{rows.ratio, most.largest}.heights(count);
@@ -88,6 +94,8 @@ std::optional<MeshRows> mesh_rows(const Settings& settings, double top) {
 double least_stretched_room(const Settings& settings) {
     const Growth most = growth_of(settings);
     int rows = 1;
+    // sum(n) >= n + 1: any larger room takes n + 1 rows or more, and is high enough for as many of
+    // height h.
     while (most.sum(rows) - rows < 1.0) ++rows;
     return most.sum(rows) / settings.real("fluid.cells_per_diameter");
 }

@@ -9,6 +9,7 @@ namespace {
 // "turbidit" read as a number: distinguishes our frames from others on the same communicator.
 constexpr std::int64_t magic = 0x7469646962727574;
 
+// magic, kind, window, iteration, sequence, length of the payload
 constexpr std::size_t header_bytes = 6 * sizeof(std::int64_t);
 
 const std::vector<std::pair<Kind, const char*>> kinds = {
@@ -64,6 +65,7 @@ Bytes begin_frame(const Envelope& envelope) {
 }
 
 void end_frame(Bytes& frame) {
+    // The length is the last number of the header. It was unknown when the header was written.
     const auto payload = static_cast<std::int64_t>(frame.size() - header_bytes);
     std::memcpy(frame.data() + header_bytes - sizeof payload, &payload, sizeof payload);
 }
@@ -81,11 +83,13 @@ FramedMessage::FramedMessage(Bytes frame) : frame_(std::move(frame)) {
     std::int32_t kind = 0;
     code(tag);
     if (tag != magic) throw MalformedPayload("not a frame of this protocol");
+    // An unknown kind is no fault of the frame: the call order refuses it, with its number.
     code(kind);
     envelope.kind = static_cast<Kind>(kind);
     code(envelope.window);
     code(envelope.iteration);
     code(envelope.sequence);
+    // No more than there is (Reader::length), and below no less: the frame ends with its payload.
     const std::size_t size = code.length();
     if (frame_.size() != size + header_bytes)
         throw MalformedPayload("frame of " + std::to_string(frame_.size()) + " bytes announces " +

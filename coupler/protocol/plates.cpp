@@ -52,10 +52,13 @@ double length(const Plate& plate) {
 PlacedPlate place(const Plate& plate, double time, double step) {
     const Shift shift = plate.motion->at(time);
     const Twist rate = plate.motion->rate(time, step);
+    // At t = 0: ends and pivot are those of the case.
     const Vec3 middle = 0.5 * (plate.from + plate.to), along = plate.to - plate.from;
+    // From the pivot to the middle at `time`.
     const Vec3 arm = rotation(shift.angle)(middle - plate.pivot);
     return {plate.pivot + shift.displacement + arm,
             std::atan2(along[1], along[0]) + shift.angle[2],
+            // v + omega x arm: the rate of the motion is that of the pivot.
             {rate.at(arm), rate.spin}};
 }
 
@@ -68,6 +71,7 @@ std::vector<Plate> plates_of(const Settings& settings) {
     for (std::string text; std::getline(list, text, ';');)
         plates.push_back(plate_of(numbers_of(text), key++));
     for (const Moved& moved : motions_of(settings, "run.wall_motions"))
+        // Keys below `first` are sides of the box, whose motions others read.
         if (const auto at = moved.what - first;
             at >= 0 && at < static_cast<std::int64_t>(plates.size()))
             plates[at].motion = moved.motion;

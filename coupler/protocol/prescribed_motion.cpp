@@ -35,9 +35,11 @@ class Constant final : public PrescribedMotion {
     explicit Constant(const Twist& rate) : rate_(rate) {}
     explicit Constant(const Numbers& numbers) {
         const Shift in_unit_time = numbers.shift();
+        // v and w are the displacement and the angle after one unit of time.
         rate_ = {in_unit_time.displacement, in_unit_time.angle};
     }
     Shift at(double time) const override { return time * rate_; }
+    // Exactly v and w, and not the rounded difference of two displacements.
     Twist rate(double, double) const override { return rate_; }
 
  private:
@@ -52,6 +54,7 @@ class Harmonic final : public PrescribedMotion {
           period_(numbers.at(numbers.per_shift())),
           phase_(numbers.at(numbers.per_shift() + 1)) {}
     Shift at(double time) const override {
+        // d(t) = A (sin(2 pi t/T + phase) - sin(phase)): zero at t = 0 whatever the phase.
         const double angle = 2.0 * pi * time / period_ + phase_;
         return (std::sin(angle) - std::sin(phase_)) * amplitude_;
     }
@@ -75,12 +78,15 @@ class Table final : public PrescribedMotion {
             rows_.push_back({numbers.at(i), numbers.shift(i + 1)});
     }
     Shift at(double time) const override {
+        // The first row later than this time.
         const auto after = std::find_if(rows_.begin(), rows_.end(),
                                         [&](const Row& row) { return row.time > time; });
         if (after == rows_.begin()) return after->shift;
+        // After the last row it stands still.
         if (after == rows_.end()) return rows_.back().shift;
         const Row &from = *(after - 1), &to = *after;
         const double part = (time - from.time) / (to.time - from.time);
+        // Angles too are interpolated: the turn keeps its axis, so that they are numbers along it.
         return (1.0 - part) * from.shift + part * to.shift;
     }
 
@@ -113,6 +119,8 @@ Moved motion_of(const std::string& text, const std::string& key, int dimension) 
     Numbers numbers{{}, dimension};
     for (double number; in >> number;) numbers.all.push_back(number);
     for (const MotionEntry& entry : motion_list)
+        // eof: all of the text was numbers. A word between them would have stopped the reading
+        // before.
         if (kind == entry.kind && in.eof()) return {what, entry.make(numbers)};
     throw std::invalid_argument(
         key + ": \"" + text +
@@ -122,6 +130,7 @@ Moved motion_of(const std::string& text, const std::string& key, int dimension) 
 }  // namespace
 
 Twist PrescribedMotion::rate(double time, double step) const {
+    // The mean over the window, not the rate at its start: no drift from the prescribed place.
     const Shift start = at(time), end = at(time + step);
     return {1.0 / step * (end.displacement - start.displacement),
             1.0 / step * (end.angle - start.angle)};

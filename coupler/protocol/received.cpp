@@ -29,6 +29,7 @@ std::string mended(const std::string& text, bool one_line) {
     for (auto at = text.begin(); at != text.end();) {
         auto next = at;
         const utf::code_point letter = Utf8::decode(next, text.end());
+        // One byte is replaced, and what follows it is read again: it may be a letter.
         if (!is_valid(letter)) next = at + 1;
         if (one_line && is_layout(letter))
             result += ' ';
@@ -46,6 +47,7 @@ std::string mended(const std::string& text, bool one_line) {
 ExitCode received_code(std::int64_t code) {
     for (const ExitCode known : {ExitCode::handshake_refused, ExitCode::participant_failed,
                                  ExitCode::stalled, ExitCode::physics_refused})
+        // 3, 4, 5, 6
         if (code == static_cast<std::int64_t>(known)) return known;
     return ExitCode::participant_failed;
 }

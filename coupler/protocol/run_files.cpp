@@ -31,6 +31,7 @@ std::filesystem::path log_file(const std::filesystem::path& run, Role role, int 
 bool write_first_end(const std::filesystem::path& run, const FirstEnd& end) {
     const std::string text =
         std::to_string(static_cast<int>(end.code)) + "\n" + end.who + "\n" + end.what + "\n";
+    // Exclusively: of programs that end one after the other, the first is the cause.
     const int file = open(first_end_file(run).c_str(), O_WRONLY | O_CREAT | O_EXCL, 0644);
     if (file < 0) return false;
     const bool whole = write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
@@ -42,6 +43,8 @@ std::optional<FirstEnd> read_first_end(const std::filesystem::path& run) {
     std::ifstream file(first_end_file(run));
     FirstEnd end;
     std::int64_t code = 0;
+    // Programs of other authors may have written it: texts and code are mended as those of a
+    // message.
     if (!(file >> code) || !std::getline(file >> std::ws, end.who)) return std::nullopt;
     end.code = received_code(code);
     end.who = received_line(end.who);

@@ -37,6 +37,7 @@ RunValues run_values(const Settings& settings) {
                 run.dimension == 3 ? settings.real("run.size_z") : 0.0};
     for (std::size_t side = 0; side < side_count(run.dimension); side += 2)
         if (const auto& [name, key, axis, inward] = box_sides[side]; settings.text(key) == "cyclic")
+            // Opposite sides are both cyclic or neither (side_types): one of each pair tells.
             run.period[axis] = run.size[axis];
     return run;
 }

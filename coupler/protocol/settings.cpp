@@ -19,6 +19,7 @@ template <class T>
 T parse(const std::string& key, const std::string& value, const char* kind) {
     T result{};
     const char* end = value.data() + value.size();
+    // The whole text must be the number: "0.5x" is none.
     const auto [stop, error] = std::from_chars(value.data(), end, result);
     if (error != std::errc() || stop != end)
         throw std::invalid_argument(key + " = \"" + value + "\" is not " + kind);
@@ -32,11 +33,13 @@ void Settings::set(const std::string& key, const std::string& value) {
     if (at != entries_.end() && at->first == key)
         at->second = value;
     else
+        // Kept in order: entries() is sorted, and look-ups are binary.
         entries_.insert(at, {key, value});
 }
 
 void Settings::set(const std::string& key, double value) {
     char buffer[32];
+    // The shortest text that is read back as the same double, to the last digit.
     const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
     set(key, std::string(buffer, end));
 }

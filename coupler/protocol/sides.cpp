@@ -22,6 +22,7 @@ SideTypes side_types(const Settings& settings) {
             throw Failure(ExitCode::bad_input, std::string(box_sides[i].key) + " = \"" + types[i] +
                                                    "\"; allowed are wall, free, cyclic, inflow");
     }
+    // Opposite sides follow each other in the table.
     for (std::size_t i = 0; i < count; i += 2)
         if ((types[i] == "cyclic") != (types[opposite(i)] == "cyclic"))
             throw Failure(ExitCode::bad_input, std::string(box_sides[i].key) + " and " +

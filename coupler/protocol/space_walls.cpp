@@ -44,6 +44,7 @@ SpaceWall wall_of(const std::string& text, std::int32_t key) {
     SpaceWall wall;
     wall.key = key;
     wall.kind = kind_of(text, kind);
+    // The order of the header, from X on: id and kind have been read.
     const std::vector<double> n = numbers_of(text, words);
     const auto vector = [&n](std::size_t i) { return Vec3{n[i], n[i + 1], n[i + 2]}; };
     wall.place = vector(0);
@@ -73,6 +74,7 @@ std::vector<SpaceWall> space_walls_of(const Settings& settings) {
     std::vector<SpaceWall> walls;
     if (!settings.has("run.walls")) return walls;
     std::istringstream list(settings.text("run.walls"));
+    // Walls have the keys after the six sides of the box, in the order of the text.
     const std::int32_t first = first_plate(3);
     std::int32_t key = first;
     for (std::string text; std::getline(list, text, ';');) walls.push_back(wall_of(text, key++));

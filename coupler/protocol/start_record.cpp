@@ -62,6 +62,7 @@ void note_start(StartStep step) {
     const char* file = std::getenv(member_variable);
     if (!file || !std::filesystem::exists(file)) return;
     for (const StepName& entry : step_names)
+        // Closed at once: the line is in the file before the step itself, which may block.
         if (entry.step == step) std::ofstream(file, std::ios::app) << entry.name << "\n";
 }
 
@@ -72,6 +73,8 @@ std::optional<StartRecord> read_start_record(const std::filesystem::path& run, R
     record.role = role;
     record.rank = rank;
     std::string pid;
+    // Four lines in the order in which begin_start_record writes them; without them there is no
+    // record.
     if (!std::getline(file, record.host) || !std::getline(file, pid) ||
         !std::getline(file, record.program) || !std::getline(file, record.log))
         return std::nullopt;
@@ -80,6 +83,7 @@ std::optional<StartRecord> read_start_record(const std::filesystem::path& run, R
     record.pid = std::atol(pid.c_str());
     for (std::string line; std::getline(file, line);)
         for (const StepName& entry : step_names)
+            // The last known step counts; unknown lines are those of other versions.
             if (line == entry.name) record.step = entry.step;
     return record;
 }
@@ -91,6 +95,7 @@ std::vector<StartRecord> not_yet_at(StartStep step, const std::filesystem::path&
         const auto ranks = settings.integer(std::string(role_name(role)) + ".ranks");
         for (int rank = 0; rank < ranks; ++rank)
             if (const auto record = read_start_record(run, role, rank);
+                // A rank without a record is not named: nothing is known of it.
                 record && record->step < step)
                 late.push_back(*record);
     }

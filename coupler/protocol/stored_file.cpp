@@ -34,6 +34,7 @@ class Descriptor {
         while (done < bytes) {
             const ssize_t more =
                 ::write(number_, static_cast<const char*>(from) + done, bytes - done);
+            // A signal may interrupt a write, and a write may take only a part.
             if (more < 0 && errno == EINTR) continue;
             if (more <= 0) return false;
             done += static_cast<std::size_t>(more);
@@ -66,6 +67,7 @@ std::ifstream opened(const std::filesystem::path& folder, const StoredFile& file
     const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
     std::ifstream in(path, std::ios::binary);
     if (missing || !in) throw damaged(path, "is missing");
+    // Cheaper than the checksum, and says more about a file that was cut off.
     if (static_cast<std::int64_t>(bytes) != file.bytes)
         throw damaged(path, "has " + std::to_string(bytes) + " bytes instead of " +
                                 std::to_string(file.bytes));
@@ -115,6 +117,7 @@ void PieceWriter::write(const void* from, std::size_t bytes) {
 }
 
 StoredFile PieceWriter::finish() {
+    // An error of the disk may show only here, after all writes have succeeded.
     if (!open_->out.sync()) throw open_->failure();
     open_->file.crc32 = static_cast<std::int64_t>(open_->crc.checksum());
     return open_->file;
@@ -132,6 +135,8 @@ struct PieceReader::Open {
     std::ifstream in;
 };
 
+// All of it is compared before the first piece is handed out: a reader would else act on a part of
+// a damaged state.
 PieceReader::PieceReader(const std::filesystem::path& folder, const StoredFile& file) {
     verify(folder, file);
     open_.reset(
@@ -146,6 +151,7 @@ std::size_t PieceReader::size() const {
 }
 
 void PieceReader::read(std::size_t begin, void* to, std::size_t bytes) {
+    // After a read that was refused the stream would refuse all others.
     open_->in.clear();
     open_->in.seekg(static_cast<std::streamoff>(begin));
     open_->in.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes));
@@ -169,6 +175,7 @@ Bytes load(const std::filesystem::path& folder, const StoredFile& file) {
 }
 
 void verify(const std::filesystem::path& folder, const StoredFile& file) {
+    // 1 MB in memory, however large the state of a fluid rank is.
     constexpr std::int64_t at_once = 1 << 20;
     std::ifstream in = opened(folder, file);
     boost::crc_32_type crc;
@@ -183,6 +190,7 @@ void verify(const std::filesystem::path& folder, const StoredFile& file) {
 }
 
 void put_on_disk(const std::filesystem::path& file_or_folder) {
+    // fsync of a folder puts the names in it on the disk: without it a renamed file may be lost.
     const Descriptor open_one(file_or_folder, O_RDONLY);
     if (!open_one.open() || !open_one.sync()) throw cannot_store(file_or_folder, "");
 }

@@ -36,6 +36,7 @@ void create_with_bracket(const fs::path& file, const std::string& unique) {
         std::fclose(out);
     }
     std::error_code exists;
+    // Fails if the file is there already: the bracket is written once, before any event.
     fs::create_hard_link(draft, file, exists);
     fs::remove(draft, exists);
 }
@@ -62,6 +63,7 @@ std::string name_event(const char* kind, const std::string& place, const std::st
 Timeline::Timeline(const fs::path& run_folder, Role role, int rank)
     : file_(run_folder / "timeline" / (host_name() + ".json")),
       place_("\"pid\":" + std::to_string(static_cast<int>(role)) +
+             // A role is shown as a process, a rank as a thread of it, whatever their real numbers.
              ",\"tid\":" + std::to_string(rank)) {
     std::error_code told_below;
     fs::create_directories(file_.parent_path(), told_below);
@@ -98,6 +100,7 @@ void Timeline::note_span(Clock::time_point end) {
         "\"args\":{\"window\":%lld}},\n",
         what_, name_of(part_), microseconds(begin_), microseconds(end) - microseconds(begin_),
         place_.c_str(), static_cast<long long>(window_));
+    // An event that was cut off would make the file unreadable from there on: left out.
     if (length > 0 && length < static_cast<int>(sizeof event)) text_.append(event, length);
 }
 

@@ -14,6 +14,7 @@ namespace {
 bool write(const std::filesystem::path& file, const std::function<void(std::ostream&)>& content) {
     std::ofstream out(file);
     content(out);
+    // Before the state of the stream is asked for: the last bytes are written here.
     out.close();
     return out.good();
 }
@@ -56,6 +57,7 @@ std::string read_whole(const std::filesystem::path& file) {
 
 void write_whole(const std::filesystem::path& file,
                  const std::function<void(std::ostream&)>& content) {
+    // A rename replaces the old file at once: readers see the old one or the new one, never a part.
     const Part part = part_of(file);
     fill(part, file, content);
     rename(part, file);
@@ -65,6 +67,7 @@ void write_whole_on_disk(const std::filesystem::path& file,
                          const std::function<void(std::ostream&)>& content) {
     const Part part = part_of(file);
     fill(part, file, content);
+    // The content before its name, the name before the caller goes on.
     put_on_disk(part.path);
     rename(part, file);
     put_on_disk(std::filesystem::absolute(file).parent_path());

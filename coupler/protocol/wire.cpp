@@ -25,6 +25,8 @@ void Reader::operator()(std::string& text) {
 std::size_t Reader::length() {
     std::int64_t size = 0;
     (*this)(size);
+    // An entry has at least one byte, so a length above the bytes that are left is false: refused
+    // before memory is asked for.
     if (size < 0 || static_cast<std::size_t>(size) > in_.size - at_)
         throw MalformedPayload("a list announces " + std::to_string(size) + " entries in " +
                                std::to_string(in_.size - at_) + " bytes");
@@ -93,6 +95,7 @@ void trailing(Reader& code, std::optional<Value>& value) {
     value.reset();
     if (code.at_end()) return;
     bool given = false;
+    // Written only with the flag 1: a 0 here is not what any program of ours sends.
     code(given), code(value.emplace());
     if (!given) throw MalformedPayload("payload ends with a value that is said not to be there");
 }
@@ -143,6 +146,7 @@ class BlockReader {
 template <class Record, class Visit>
 std::size_t bytes_per(Visit visit) {
     NumberCount count;
+    // By visiting one: every field of these records has eight bytes, whatever its type.
     const Record record;
     visit(count, record);
     return count.numbers * sizeof(double);
@@ -151,6 +155,7 @@ std::size_t bytes_per(Visit visit) {
 /// `record_at(i)` for i below `count`. Goes through a block that stays in the cache.
 template <class Record, class Visit, class RecordAt>
 void table(Writer& code, std::size_t count, Visit visit, RecordAt record_at) {
+    // Some 8 kB of grains.
     constexpr std::size_t at_once = 32;
     const std::size_t each = bytes_per<Record>(visit);
     code(static_cast<std::int64_t>(count));
@@ -181,6 +186,7 @@ void table(Reader& code, std::vector<Record>& records, Visit visit) {
 
 constexpr auto plain = [](auto& code, auto& value) { code(value); };
 
+// The order of the fields, here and below, is the protocol (docs/protocol.md, Records).
 constexpr auto visit_grain = [](auto& code, auto& g) {
     code(g.id), code(g.shape), code(g.material), code(g.prescribed);
     code(g.radius), code(g.density);
@@ -212,6 +218,7 @@ constexpr auto visit_motion = [](auto& code, auto& motion) {
     table(code, motion.grains, visit_grain);
     visit_contact_report(code, motion.report);
     maybe(code, motion.contacts, visit_contacts);
+    // Since 1.10, behind the contacts, where older programs end their motion.
     trailing(code, motion.report.film_work);
 };
 
@@ -315,6 +322,7 @@ void append(Bytes& out, const MotionShare& share) {
         code, share.places.size(), visit_grain,
         [&](std::size_t i) -> const GrainState& { return share.of->grains[share.places[i]]; });
     visit_contact_report(code, share.of->report);
+    // The fluid needs neither contacts nor the work of films: a Motion that ends with the flag 0.
     maybe(code, std::optional<std::vector<ContactRecord>>{}, visit_contacts);
 }
 

@@ -19,6 +19,7 @@ class Entry {
         table_.numbers.push_back(value);
     }
     void operator()(const std::string& name, const std::optional<double>& value) {
+        // Missing then and now are equal (replay.cpp: NaN is the same as NaN).
         (*this)(name, value.value_or(NAN));
     }
     void operator()(const std::string& name, const Vec3& value) {

@@ -12,6 +12,7 @@ std::optional<std::string> first_checkpoint(const std::filesystem::path& file) {
         const Message message = unframe(frame->bytes);
         if (message.envelope.kind == Kind::restore)
             return decode<RestoreOrder>(message.payload).folder;
+        // A run that goes on is restored before its first window or not at all.
         if (message.envelope.kind == Kind::window) break;
     }
     return std::nullopt;

@@ -18,6 +18,7 @@ constexpr std::size_t most_sentences = 10;
 constexpr double farewell_limit = 10.0;  // [s]
 
 bool same(double a, double b) {
+    // A number that was NaN then and is NaN now has not changed.
     return a == b || (std::isnan(a) && std::isnan(b));
 }
 
@@ -42,6 +43,7 @@ struct TableDifference {
 };
 
 TableDifference difference(const NumberTable& now, const NumberTable& then) {
+    // Number by number only where the records are those of the same grains in the same order.
     if (now.ids != then.ids || now.numbers.size() != then.numbers.size())
         return {now.ids.size() == then.ids.size()
                     ? now.what + "s come in another order, or are others"
@@ -49,6 +51,8 @@ TableDifference difference(const NumberTable& now, const NumberTable& then) {
                           std::to_string(then.ids.size()),
                 INFINITY};
     const std::size_t per_record = then.names.size();
+    // The largest of each quantity over all records of the message: relative to single numbers,
+    // rounding near zero would look large.
     std::vector<double> scale(per_record, 0.0);
     for (std::size_t i = 0; i < then.numbers.size(); ++i)
         if (!std::isnan(then.numbers[i]))
@@ -60,6 +64,7 @@ TableDifference difference(const NumberTable& now, const NumberTable& then) {
         const std::size_t name = i % per_record;
         const GrainId id = then.ids[i / per_record];
         if (result.first.empty())
+            // Records without an id have a negative one.
             result.first = then.what + (id < 0 ? "" : " " + std::to_string(id)) + ": " +
                            then.names[name] + " = " + text_of(a) + " instead of " + text_of(b);
         const double relative = std::abs(a - b) / (scale[name] > 0.0 ? scale[name] : 1.0);
@@ -82,6 +87,8 @@ class Replay {
     ReplayReport play() {
         demand_ranks();
         try {
+            // In the order in which the coupler had sent and received: what it had received is now
+            // waited for before anything later is sent.
             while (auto frame = recording_.next())
                 if (frame->sent_by_coupler)
                     send(*frame);
@@ -91,6 +98,8 @@ class Replay {
             dismiss({static_cast<std::int64_t>(failure.code()), failure.what()});
             throw;
         }
+        // A run that was killed, or that failed: the recording ends before the participant may
+        // leave.
         if (std::find(released_.begin(), released_.end(), false) != released_.end()) {
             report_.complete = false;
             dismiss({0, "the recording ends here"});
@@ -119,6 +128,7 @@ class Replay {
 
     /// The next message of a rank; nothing if it is silent for too long.
     std::optional<Message> next(int peer, double limit) {
+        // Ranks may answer in another order than then: each has a queue.
         auto& queue = arrived_[static_cast<std::size_t>(peer)];
         for (Patience patience; queue.empty(); patience.wait()) {
             if (auto frame = channel_.try_receive())
@@ -145,6 +155,7 @@ class Replay {
     void compare(int peer, const Message& then) {
         last_[static_cast<std::size_t>(peer)] = then.envelope;
         const Message now = receive(peer);
+        // Not the sequence: it follows from the kinds.
         if (now.envelope.kind != then.envelope.kind ||
             now.envelope.window != then.envelope.window ||
             now.envelope.iteration != then.envelope.iteration)
@@ -152,6 +163,7 @@ class Replay {
                           "it sent " + place_of(now, peer) + " instead of " + place_of(then, peer));
         ++report_.messages;
         const auto ours = numbers_of(now), theirs = numbers_of(then);
+        // E.g. contacts that are now reported and were not then.
         bool differs = ours.size() != theirs.size();
         std::string why = differs ? "it reports other things than then" : "";
         for (std::size_t t = 0; t < std::min(ours.size(), theirs.size()); ++t) {
@@ -173,6 +185,8 @@ class Replay {
             for (std::size_t peer = 0; peer < released_.size(); ++peer)
                 if (!released_[peer]) end(peer);
         };
+        // To all before any is waited for: ranks of one program may wait for each other on their
+        // way out.
         each([&](std::size_t peer) { send_end(peer, Kind::dismiss, encode(verdict)); });
         each([&](std::size_t peer) {
             for (auto message = next(static_cast<int>(peer), farewell_limit);
@@ -183,6 +197,8 @@ class Replay {
     }
 
     void send_end(std::size_t peer, Kind kind, Bytes payload) {
+        // Window and round of the last message; the number continues what was sent from the
+        // recording.
         Envelope envelope = last_[peer];
         envelope.kind = kind;
         envelope.sequence = sent_[peer]++;

@@ -25,6 +25,7 @@ Eigen::Vector3d spatial(const Point2& v) {
 /// Adds a point unless an existing one is too near.
 void add_point(std::vector<SurfacePoint>& points, const SurfacePoint& point, double spacing) {
     const auto too_near = [&](const SurfacePoint& other) {
+        // The rounding keeps points that are exactly `spacing` apart.
         return (other.position - point.position).norm() < spacing * (1.0 - 1e-12);
     };
     if (std::none_of(points.begin(), points.end(), too_near)) points.push_back(point);
@@ -39,6 +40,8 @@ ConvexPolygon::ConvexPolygon(const std::vector<double>& vertices) {
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
         const Point2 &a = vertices_[i], &b = vertices_[(i + 1) % vertices_.size()];
         const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+        // The side turned clockwise by a quarter: outward, since the vertices run
+        // counter-clockwise.
         normals_.push_back({(b[1] - a[1]) / length, (a[0] - b[0]) / length});
     }
     const AreaMoments moments = area_moments(vertices_);
@@ -47,23 +50,27 @@ ConvexPolygon::ConvexPolygon(const std::vector<double>& vertices) {
 }
 
 double ConvexPolygon::volume(double radius) const {
+    // V = R^2 V(1)
     return area_ * radius * radius;
 }
 
 Eigen::Matrix3d ConvexPolygon::inertia_per_density(double radius) const {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
     const double square = radius * radius;
+    // I_zz / rho = R^4 I_zz(1): the integral of |x|^2 over an area.
     inertia(2, 2) = second_moment_ * square * square;
     return inertia;
 }
 
 double ConvexPolygon::beyond(std::size_t side, const Eigen::Vector3d& point, double radius) const {
     const Point2 &v = vertices_[side], &n = normals_[side];
+    // n . (x - R v)
     return n[0] * (point.x() - radius * v[0]) + n[1] * (point.y() - radius * v[1]);
 }
 
 bool ConvexPolygon::contains(const Eigen::Vector3d& point, double radius) const {
     for (std::size_t i = 0; i < vertices_.size(); ++i)
+        // Convex: inside of all sides is inside.
         if (beyond(i, point, radius) > 0.0) return false;
     return true;
 }
@@ -92,6 +99,8 @@ std::vector<SurfacePoint> ConvexPolygon::surface_points(double radius, double sp
     for (std::size_t i = 0; i < n; ++i) {
         const Eigen::Vector3d first = radius * spatial(vertices_[i]);
         const Eigen::Vector3d side = radius * spatial(vertices_[(i + 1) % n]) - first;
+        // As many equal parts as leave each at least `spacing` long; their inner ends become
+        // points.
         const int parts = static_cast<int>(std::floor(side.norm() / spacing * (1.0 + 1e-12)));
         for (int k = 1; k < parts; ++k)
             add_point(points,

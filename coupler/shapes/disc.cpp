@@ -9,11 +9,13 @@ constexpr double pi = 3.14159265358979323846;
 }
 
 double Disc::volume(double radius) const {
+    // V = pi R^2
     return pi * radius * radius;
 }
 
 Eigen::Matrix3d Disc::inertia_per_density(double radius) const {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+    // I_zz / rho = pi R^4 / 2
     inertia(2, 2) = 0.5 * pi * std::pow(radius, 4);
     return inertia;
 }

@@ -11,6 +11,7 @@ ImmersedBodies::ImmersedBodies(const RunValues& run, const ShapeTable& shapes)
 }
 
 ImmersedBody ImmersedBodies::operator()(const GrainState& grain) const {
+    // R_h = (R_h/R) R + s, s the surface shift [m]: divided by R, as immersed_body takes a ratio.
     return immersed_body(*shapes_.at(grain.shape), grain.radius, grain.density, fluid_density_,
                          hydrodynamic_radius_ + surface_shift_ / grain.radius);
 }

@@ -8,7 +8,9 @@ NearestPlace nearest_place(const Meridian& meridian, const BesideAxis& point) {
     const double length = norm(edge);
     const BesideAxis along = (1.0 / length) * edge, offset = point - meridian[0];
     const double place = dot(along, offset);
+    // The foot of the perpendicular lies on the meridian.
     if (place >= 0.0 && place <= length) {
+        // The direction from its first end to its second, turned by a quarter.
         const BesideAxis across{-along.height, along.radius};
         const double height = dot(across, offset);
         return {(height < 0.0 ? -1.0 : 1.0) * across, std::abs(height), -1};

@@ -75,6 +75,8 @@ double height(const Point2& a, const Point2& b, const Point2& point) {
 void check_convex(const std::vector<Point2>& v, double least) {
     const std::size_t n = v.size();
     for (std::size_t i = 0; i < n; ++i) {
+        // How far the vertex is left of the line between its neighbours: right of it, at a convex
+        // corner.
         const double turn = height(v[(i + n - 1) % n], v[(i + 1) % n], v[i]);
         if (turn > least) refuse(vertex_name(v, i) + " makes it concave; remove or move it");
         if (turn > -least)
@@ -82,6 +84,8 @@ void check_convex(const std::vector<Point2>& v, double least) {
     }
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t k = 0; k < n; ++k)
+            // Corners that all turn left may still go round twice (a pentagram): every side is
+            // asked.
             if (k != i && k != (i + 1) % n && height(v[i], v[(i + 1) % n], v[k]) < least)
                 refuse(vertex_name(v, k) + " is outside the side from vertex " +
                        std::to_string(i + 1) + " to " + std::to_string((i + 1) % n + 1) +
@@ -98,6 +102,7 @@ AreaMoments area_moments(const std::vector<Point2>& vertices) {
         const Point2 a = minus(vertices[i], vertices[0]), b = minus(vertices[i + 1], vertices[0]);
         const double w = cross(a, b);
         twice_area += w;
+        // integral of x over the triangle (0, a, b): w (a + b) / 6
         x += w * (a[0] + b[0]);
         y += w * (a[1] + b[1]);
         // integral of |x|^2 over the triangle: w (|a|^2 + a . b + |b|^2) / 12

@@ -22,6 +22,7 @@ double Sphere::volume(double radius) const {
 }
 
 Eigen::Matrix3d Sphere::inertia_per_density(double radius) const {
+    // I / rho = (2/5) V R^2
     return 0.4 * volume(radius) * radius * radius * Eigen::Matrix3d::Identity();
 }
 
@@ -32,6 +33,7 @@ bool Sphere::contains(const Eigen::Vector3d& point, double radius) const {
 std::vector<SurfacePoint> Sphere::surface_points(double radius, double spacing) const {
     // Circles of latitude about e_z, whose distances along a meridian are chords of at least the
     // spacing; at a pole the circle is a point.
+    // Half of the points of a whole meridian circle: from pole to pole.
     const int bands = points_on_circle(radius, spacing) / 2;
     std::vector<SurfacePoint> points;
     for (int k = 0; k <= bands; ++k) {

@@ -29,6 +29,8 @@ double height(const std::vector<Point2>& corners, std::size_t i, const Point2& p
 }
 
 /// Maximum over the sides of the minimum signed distance of the points.
+// Separating axes: positive where a side has all points beyond it, else minus the least push along
+// a normal that brings them there.
 double separation(const std::vector<Point2>& corners, const std::vector<Point2>& points) {
     double largest = -infinite;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -50,6 +52,8 @@ double least_distance(const std::vector<Point2>& corners, const std::vector<Poin
 
 double gap_to_disc(const std::vector<Point2>& corners, const PlacedOutline& disc) {
     const double depth = separation(corners, {disc.centre});
+    // Beyond a corner the line along a side is nearer than the polygon: hence the true distance
+    // outside.
     return (depth > 0.0 ? least_distance(corners, {disc.centre}) : depth) - disc.radius;
 }
 
@@ -58,6 +62,7 @@ double gap_to_disc(const std::vector<Point2>& corners, const PlacedOutline& disc
 PlacedOutline placed(const std::vector<Point2>& outline, const Point2& centre, double radius,
                      double angle) {
     PlacedOutline grain{centre, radius, {}};
+    // x = centre + R turn(angle) v
     const double c = radius * std::cos(angle), s = radius * std::sin(angle);
     for (const Point2& v : outline)
         grain.corners.push_back({centre[0] + c * v[0] - s * v[1], centre[1] + s * v[0] + c * v[1]});
@@ -71,6 +76,7 @@ double surface_gap(const PlacedOutline& one, const PlacedOutline& other) {
     if (other.corners.empty()) return gap_to_disc(one.corners, other);
     const double depth =
         std::max(separation(one.corners, other.corners), separation(other.corners, one.corners));
+    // In the plane the normals of both are all the axes that can separate convex polygons.
     if (depth <= 0.0) return depth;
     return std::min(least_distance(one.corners, other.corners),
                     least_distance(other.corners, one.corners));

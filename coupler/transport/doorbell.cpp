@@ -44,6 +44,7 @@ struct Ring {
 Ring next_ring(int bell) {
     char rung = 0;
     iovec place{&rung, 1};
+    // The kernel fills in who has sent it (SO_PASSCRED, hang()): another user cannot forge it.
     alignas(cmsghdr) char control[CMSG_SPACE(sizeof(ucred))];
     msghdr message{};
     message.msg_iov = &place, message.msg_iovlen = 1;
@@ -77,6 +78,7 @@ bool Doorbell::hang(const std::string& name) {
     if (name.size() > longest_name) return false;
     const int made = new_socket(), yes = 1;
     const Address address(name);
+    // Before bind: no ring may come in without its sender's credentials.
     ::setsockopt(made, SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
     if (::bind(made, address.get(), address.length) == 0) {
         socket_ = made;
@@ -87,8 +89,10 @@ bool Doorbell::hang(const std::string& name) {
 }
 
 bool Doorbell::sleep(double seconds) {
+    // Without a bell the descriptor is -1, which ppoll leaves out: a plain sleep.
     pollfd ring{socket_, POLLIN, 0};
     const timespec limit = time_of(seconds);
+    // 0: nobody has rung. -1: a signal, which ends the sleep like the time limit.
     if (::ppoll(&ring, 1, &limit, nullptr) <= 0) return false;
     bool rung = false;  // several rings are one
     Ring ring_now{true, false};
@@ -100,6 +104,7 @@ bool Doorbell::sleep(double seconds) {
 }
 
 void BellButton::ring() {
+    // One nameless socket for all buttons of the process; nobody answers a ring.
     static const int from = new_socket();
     heard_ = heard_ && name_.size() <= longest_name;
     if (!heard_) return;

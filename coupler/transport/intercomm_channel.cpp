@@ -17,11 +17,11 @@ namespace {
 
 constexpr int frame_tag = 7;
 
-// MPI moves a long frame in small pieces, and each end only while it is inside MPI: an end that
-// slept 400 us after every few pieces would bring the rate down to 0.2 GB/s. A sender attends to
-// its frame for the time that it takes at this rate and that the receiver may still sleep, after
-// which the receiver must be busy. One who receives knows that the sender is there, unless it has
-// died in between.
+// MPI moves a long frame in small pieces, and each end only while it is inside MPI: where both ends
+// slept after every few pieces, the rate was 0.2 GB/s (docs/decisions/messages.md). A sender
+// attends to its frame for the time that it takes at `slow_sending` and a little more, in which the
+// receiver may wake up; after that the receiver must be busy. One who receives knows that the
+// sender is there, unless it has died in between.
 constexpr double slow_sending = 0.5e9;         // [bytes/s]
 constexpr double slow_receiving = 20e6;        // [bytes/s]
 constexpr double shortest_attention = 500e-6;  // [s]
@@ -41,6 +41,7 @@ IntercommChannel::IntercommChannel(MPI_Comm intercomm) : intercomm_(intercomm) {
 }
 
 void IntercommChannel::send(int peer, Bytes bytes) {
+    // MPI counts in int: 2 GB, some eight million grains.
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw std::length_error("a frame of " + std::to_string(bytes.size()) +
                                 " bytes is more than MPI sends at once; use more ranks");
@@ -48,8 +49,10 @@ void IntercommChannel::send(int peer, Bytes bytes) {
     Pending& frame = pending_.emplace_back();
     frame.bytes = std::move(bytes);
     frame.attended_until = attended_until(frame.bytes.size(), slow_sending);
+    // The list keeps the bytes in place until MPI has read them (flushed()).
     PMPI_Isend(frame.bytes.data(), static_cast<int>(frame.bytes.size()), MPI_BYTE, peer, frame_tag,
                intercomm_, &frame.request);
+    // After MPI has the frame: whoever wakes up must find it.
     bells_[static_cast<std::size_t>(peer)].ring();
 }
 
@@ -77,6 +80,7 @@ void IntercommChannel::begin_receiving() {
         int arrived = 0;
         MPI_Message message = MPI_MESSAGE_NULL;
         MPI_Status status;
+        // A matched probe: the frame that was measured is the one that is received.
         PMPI_Improbe(MPI_ANY_SOURCE, frame_tag, intercomm_, &arrived, &message, &status);
         if (!arrived) return;
         int size = 0;

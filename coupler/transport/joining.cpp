@@ -15,7 +15,9 @@ Joining::Joining(std::filesystem::path run, const Settings& settings, std::vecto
              [this, failed = std::move(failed)] { failed(who_is_late()); }) {}
 
 MPI_Comm Joining::join_world(std::optional<MpiEnvironment>& mpi) {
+    // Returns only when all programs of the job have called MPI_Init.
     mpi.emplace(nullptr, nullptr);
+    // For the watch's thread, which asks who is late while this one is inside MPI.
     awaited_ = StartStep::split;
     const MPI_Comm local = split_world(Role::coupler);
     awaited_ = StartStep::announcement;
@@ -24,6 +26,7 @@ MPI_Comm Joining::join_world(std::optional<MpiEnvironment>& mpi) {
 
 // The watch also covers the intercommunicator, which all ranks of the participant create.
 JoinedParticipant Joining::meet(MPI_Comm local) {
+    // Without a limit of its own: the watch is running.
     return accept_participant(local, std::numeric_limits<double>::infinity());
 }
 

@@ -14,8 +14,10 @@ LoopbackChannel::connect(int ranks) {
 }
 
 void LoopbackChannel::send(int peer, Bytes bytes) {
+    // A test may change the frame, or have it lost.
     if (hook_ && !hook_(bytes)) return;
     const std::lock_guard lock(wires_->mutex);
+    // -1: the coupler's end. A rank knows one peer, the coupler, as 0.
     if (rank_ < 0)
         wires_->to_rank.at(peer).push_back({0, std::move(bytes)});
     else

@@ -33,9 +33,12 @@ double Patience::seconds() const {
 
 void Patience::wait(bool in_transit) {
     if (in_transit) return std::this_thread::yield();  // the other end may need this core
+    // Since the last ring: after one, polling begins again, since its frame comes by MPI and may
+    // take a few looks more.
     const double waited = seconds_since(last_ring_);
     if (waited < hot) return;
     sleep_exactly();
+    // 1/64 of the time waited so far is at most what an unrung sleep adds to it, within the bounds.
     if (Doorbell::own().sleep(std::clamp(share * waited, shortest_sleep, longest_sleep)))
         last_ring_ = Clock::now();
 }

@@ -44,6 +44,7 @@ RecordingChannel::RecordingChannel(Channel& channel, std::filesystem::path file)
     : channel_(channel), writer_(std::move(file), channel.peers()) {}
 
 void RecordingChannel::send(int peer, Bytes bytes) {
+    // Before it is sent: an answer can never stand in front of its question.
     writer_.write(true, peer, bytes);
     channel_.send(peer, std::move(bytes));
 }
@@ -56,6 +57,7 @@ std::optional<Channel::Frame> RecordingChannel::try_receive() {
 
 Recording::Recording(const std::filesystem::path& file) : in_(file, std::ios::binary) {
     std::error_code none;
+    // A missing file has no size and no numbers: refused below.
     left_ = static_cast<std::int64_t>(std::filesystem::file_size(file, none));
     const auto first = read_number(in_), second = read_number(in_), ranks = read_number(in_);
     if (first != magic)
@@ -69,6 +71,7 @@ Recording::Recording(const std::filesystem::path& file) : in_(file, std::ios::bi
 std::optional<RecordedFrame> Recording::next() {
     const auto sent = read_number(in_), peer = read_number(in_), size = read_number(in_);
     left_ -= 3 * static_cast<std::int64_t>(sizeof(std::int64_t));
+    // The file may be cut off or damaged: a length is believed only as far as there are bytes.
     if (!size || *size < 0 || *size > left_ || *peer < 0 || *peer >= peers_) return std::nullopt;
     left_ -= *size;
     RecordedFrame frame{*sent != 0, static_cast<int>(*peer),

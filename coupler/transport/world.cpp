@@ -44,9 +44,11 @@ void hang_doorbell() {
 MpiEnvironment::MpiEnvironment(int* argc, char*** argv) {
     int running = 0;
     PMPI_Initialized(&running);
+    // By the host, e.g. YADE's mpy: then the host also finalises it.
     if (running) return;
     int provided = 0;
     note_start(StartStep::mpi_init);
+    // Calls come from one thread at a time, whichever it is.
     PMPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
     ours_ = true;
 }
@@ -72,11 +74,14 @@ MPI_Comm join_coupler(MPI_Comm local, Role role) {
     PMPI_Comm_size(local, &ranks);
     hang_doorbell();
     note_start(StartStep::announcement);
+    // The leader speaks for its program. It is not known who joins first: each announces itself.
     if (rank == 0) {
         const std::array<int, 2> announcement = {static_cast<int>(role), ranks};
         PMPI_Send(announcement.data(), 2, MPI_INT, 0, announcement_tag, MPI_COMM_WORLD);
     }
     MPI_Comm intercomm = MPI_COMM_NULL;
+    // Collective on `local` alone, with the coupler (world rank 0) as the other side's leader. A
+    // tag per role, since participants may join at the same time.
     PMPI_Intercomm_create(local, 0, MPI_COMM_WORLD, 0, intercomm_tag + static_cast<int>(role),
                           &intercomm);
     return intercomm;
@@ -86,6 +91,8 @@ JoinedParticipant accept_participant(MPI_Comm local, double limit) {
     MPI_Status status;
     int arrived = 0;
     hang_doorbell();
+    // Probed and not received: a receive could not be given up, and would take the core from
+    // others.
     for (Patience patience; !arrived; patience.wait()) {
         PMPI_Iprobe(MPI_ANY_SOURCE, announcement_tag, MPI_COMM_WORLD, &arrived, &status);
         if (!arrived && patience.seconds() > limit)
@@ -112,6 +119,7 @@ std::vector<int> world_ranks_of_peers(MPI_Comm intercomm) {
     PMPI_Group_size(peers, &count);
     std::vector<int> there(static_cast<std::size_t>(count)), ranks(there.size());
     std::iota(there.begin(), there.end(), 0);
+    // In the order of the ranks at the other end, as send(peer) counts them.
     PMPI_Group_translate_ranks(peers, count, there.data(), world, ranks.data());
     PMPI_Group_free(&peers);
     PMPI_Group_free(&world);
@@ -129,12 +137,14 @@ struct StartWatch::State {
 
 StartWatch::StartWatch(double limit, std::function<void()> expired)
     : state_(std::make_shared<State>()) {
+    // Detached, and with a share of the state: it may outlive the watch by one sleep of 50 ms.
     std::thread([state = state_, limit, expired = std::move(expired)] {
         const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
         while (state->armed && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
         if (!state->armed) return;
         expired();
+        // Without the handlers of exit(): the main thread hangs inside MPI.
         _exit(static_cast<int>(ExitCode::stalled));
     }).detach();
 }

@@ -12,6 +12,7 @@ namespace {
 MPI_Comm own_world = MPI_COMM_NULL;
 
 MPI_Comm isolated(MPI_Comm comm) {
+    // Before the split the world is still the real one.
     return comm == MPI_COMM_WORLD && own_world != MPI_COMM_NULL ? own_world : comm;
 }
 
@@ -19,6 +20,7 @@ MPI_Comm isolated(MPI_Comm comm) {
 void split_if_asked() {
     const char* role = std::getenv("TURBIDITE_ROLE");
     if (own_world == MPI_COMM_NULL && role != nullptr)
+        // The one collective call on the world, with the colour that split_world uses (world.cpp).
         PMPI_Comm_split(MPI_COMM_WORLD, 1000 + std::atoi(role), 0, &own_world);
 }
 
@@ -46,6 +48,7 @@ int MPI_Init_thread(int* argc, char*** argv, int required, int* provided) {
     return status;
 }
 
+// Here only so that all calls of libPstream are in this list.
 int MPI_Finalize() {
     return PMPI_Finalize();
 }

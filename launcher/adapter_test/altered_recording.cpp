@@ -19,6 +19,8 @@ void alter_recording(const std::filesystem::path& from, const std::filesystem::p
         const Envelope at = unframe(frame->bytes).envelope;
         const bool chosen = frame->sent_by_coupler && at.kind == kind && at.window == window;
         auto in_gap = gap.begin() + frame->peer;
+        // What the rank had answered to the message that is left out must go as well: the gap lasts
+        // until the coupler speaks to this rank again.
         if (frame->sent_by_coupler) *in_gap = chosen && alteration == Alteration::left_out;
         if (!*in_gap) altered.write(frame->sent_by_coupler, frame->peer, frame->bytes);
         if (chosen && alteration == Alteration::repeated)
@@ -39,6 +41,7 @@ std::set<GrainId> grains_that_moved(const std::filesystem::path& recording) {
         const Message message = unframe(frame->bytes);
         if (message.envelope.kind != Kind::state) continue;
         for (const GrainState& grain : decode<Motion>(message.payload).grains)
+            // Compared with the rank that sent it first.
             if (owner.emplace(grain.id, frame->peer).first->second != frame->peer)
                 moved.insert(grain.id);
     }

@@ -75,10 +75,12 @@ Finding judge_rolling(const Trial& trial) {
     double velocity = 0.0, spin = 0.0;
     for (std::size_t n = 0; n < states.size(); ++n) {
         const GrainState& grain = states[n].grains.at(0);
+        // Friction mu m g slows the grain until its surface rolls: u = u_0/(1 + k).
         const double expected =
             std::max(start / (1.0 + k), start - friction * g * dt * static_cast<double>(n));
         velocity = std::max(velocity, std::abs(grain.velocity[0] - expected));
         const double surface = grain.radius * grain.angular_velocity[2];
+        // I omega = -R m (u_0 - u), with I = k m R^2
         spin = std::max(spin, std::abs(surface + (start - expected) / k));
         const Vec3& impulse = grain.contact_impulse;
         if (!within_the_cone(impulse[1], impulse[0], friction))
@@ -93,8 +95,10 @@ Finding judge_rolling(const Trial& trial) {
 double spin_about_the_middle(const Motion& state, double inertia_over_mass) {
     double sum = 0.0;
     for (const GrainState& grain : state.grains)
+        // I/m omega
         sum += inertia_over_mass * grain.radius * grain.radius * grain.angular_velocity[2];
     const GrainState &a = state.grains.at(0), &b = state.grains.at(1);
+    // Two equal masses: the reduced mass is m/2.
     return sum + 0.5 * cross_z(b.position - a.position, b.velocity - a.velocity);
 }
 
@@ -107,6 +111,7 @@ struct Glance {
 Glance glance(const Motion& before, const Motion& after) {
     const GrainState &a = before.grains.at(0), &b = before.grains.at(1);
     const Vec3 normal = unit(b.position - a.position);
+    // A quarter counter-clockwise of the normal.
     const Vec3 tangent{-normal[1], normal[0], 0.0};
     const double slip = dot(b.velocity - a.velocity, tangent);
     const Vec3& impulse = after.grains.at(1).contact_impulse;
@@ -129,6 +134,7 @@ Finding judge_glance(const Trial& trial) {
     }
     if (!(sum.normal > 0.0))
         return {Grade::failed, "two grains on courses that cross did not touch"};
+    // Friction acts against the slip: the sum along it is negative.
     const double found = -sum.tangential / sum.normal;
     Finding finding = within(std::abs(found - std::clamp(found, glancing_friction, most)),
                              glancing_tolerance * glancing_friction,
@@ -165,6 +171,7 @@ Finding judge_held(const Trial& trial) {
     double held = 0.0, driven = 0.0, lowest = INFINITY;
     for (std::size_t n = 0; n < states.size(); ++n) {
         const Vec3 start = grain_of(states[0], 8).position;
+        // The driven grain has 0.5 u_c (held_and_driven).
         const Vec3 place{start[0] + 0.5 * dt * static_cast<double>(n), start[1], start[2]};
         held = std::max(held,
                         distance(grain_of(states[n], 7).position, grain_of(states[0], 7).position));
@@ -176,6 +183,7 @@ Finding judge_held(const Trial& trial) {
     if (driven > round_off)
         return {Grade::failed,
                 fmt::format("a driven grain is {:.2g} D from where its velocity takes it", driven)};
+    // The free grain begins 0.3 D above the held one and touches it with its centre at 4 D.
     const double sinks = 4.0 - lowest;
     if (!(sinks <= deepest_overlap))
         return {Grade::failed, fmt::format("a grain sinks {:.2g} D into a held one", sinks)};
@@ -189,6 +197,7 @@ double contact_defect(const Motion& state) {
     for (const ContactRecord& contact : *state.contacts)
         for (std::size_t axis : {0, 1, 2}) {
             rest[contact.b][axis] -= contact.impulse[axis];
+            // `impulse` is on b, and minus as much on a.
             if (contact.wall < 0) rest[contact.a][axis] += contact.impulse[axis];
         }
     double worst = 0.0;
@@ -280,6 +289,8 @@ Overlap judge_overlap(const Trial& trial) {
         const double now = overlap_of(states[n], trial.settings) / diameter;
         const double told = states[n].report.max_penetration / diameter;
         result.deepest = std::max(result.deepest, now);
+        // Either end of the window will do: what is told must not be below the smaller overlap of
+        // both.
         if (n > 0 && told < std::min(before, now) - overlap_tolerance)
             result.finding = {Grade::failed,
                               fmt::format("grains overlap by {:.2g} D at the end of window {}, and "

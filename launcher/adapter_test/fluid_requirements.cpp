@@ -40,7 +40,9 @@ Finding starts_like_potential_flow(const Candidate& candidate,
     const double dt = trial.settings.real("run.step"), g = trial.settings.real("run.gravity");
     const double ratio = trial.settings.real("grains.density_ratio");
     const double added = space ? 0.5 : 1.0;
+    // A disc's less 1.1 % for the boundary layer and 0.5 % for the walls.
     const double expected = (space ? 1.0 : 0.984) * (ratio - 1.0) / (ratio + added);
+    // Of the last window: -dU_y/dt in g.
     const double found = (fall[fall.size() - 2] - fall.back()) / dt / g;
     return {std::abs(found - expected) <= 0.1 * expected ? Grade::met : Grade::failed,
             fmt::format("acceleration {:.4f} g, potential flow {:.4f} g, allowed 10 %", found,
@@ -53,6 +55,7 @@ Finding keeps_symmetry(const Candidate& candidate, const std::filesystem::path& 
     if (!trial.done()) return failure_of(trial.outcome);
     const double fall = trial.last("mean_velocity_y");
     const double dt = trial.settings.real("run.step"), g = trial.settings.real("run.gravity");
+    // 50 windows of 0.01 t_c are 0.5 t_c.
     const double free_fall = 50.0 * g * dt;
     if (!(fall < -0.01 && -fall < free_fall))
         return {Grade::failed, fmt::format("a grain falls with {:.3g} u_c after 0.5 t_c, in vacuum "
@@ -70,6 +73,8 @@ Finding balances(const Candidate& candidate, const std::filesystem::path& folder
     const Trial trial = play_trial(candidate, {"balance", two_apart, {"time.end=0.5"}}, folder);
     if (!trial.done()) return failure_of(trial.outcome);
     const double grains = trial.maximum("grain_balance"), fluid = trial.maximum("fluid_balance");
+    // Grains to round-off, since the coupler computes their balance from what was sent; the fluid's
+    // own one is as good as its solvers.
     return {grains <= round_off && fluid <= 1e-3 ? Grade::met : Grade::failed,
             fmt::format("grain_balance {:.1e}, allowed {:.0e}; fluid_balance {:.1e}, allowed 1e-03",
                         grains, round_off, fluid)};
@@ -81,6 +86,7 @@ Finding respects_given_motion(const Candidate& candidate, const std::filesystem:
     const Trial trial = play_trial(candidate, {"driven", driven, {"time.end=0.5"}}, folder);
     if (!trial.done()) return failure_of(trial.outcome);
     const auto& x = trial.history.at("mean_position_x");
+    // The history has means over both grains: twice the mean is the sum.
     const double moved = 2.0 * (x.back() - x.front());
     const double free = moved - 0.25;  // the driven one moves by 0.5 u_c * 0.5 t_c
     if (!(std::abs(free) < 0.05))

@@ -38,8 +38,8 @@ const std::string& falling(const Candidate& candidate) {
     return candidate.dimension == 3 ? apart_and_across : apart;
 }
 
-/// Velocity after each window, from this one and with this acceleration on; the scripted fluid
-/// divides by 1 + gamma dt/cM.
+/// Velocity after each window, from this one and with this acceleration on. By the scripted fluid
+/// cM (U^{n+1} - U^{n+4/5}) = -gamma dt U^{n+1}: it divides by 1 + gamma dt/cM.
 std::vector<double> in_the_drag(double velocity, double acceleration, const Settings& s) {
     const double dt = s.real("run.step");
     const double inertia = immersed_ratios(s).inertia * volume_of(0.5, s);

@@ -133,6 +133,7 @@ std::map<std::string, double> maxima_of(const RunFolder& folder) {
 LaunchSite site_for(const Candidate& candidate) {
     LaunchSite site = this_site();
     if (candidate.side == Role::grains)
+        // The partner takes the place of what the trial does not test.
         site.programs.other_fluid = {site.programs.partner()};
     else
         site.programs.other_fluid = candidate.words;
@@ -141,6 +142,7 @@ LaunchSite site_for(const Candidate& candidate) {
 
 JobEnd start(const std::vector<std::string>& line, const RunFolder& folder,
              const std::string& name) {
+    // No lines that rewrite themselves: all output goes to files.
     ::setenv("TURBIDITE_PROGRESS", "plain", 1);
     const JobEnd end = run_job({.arguments = line,
                                 .error_log = folder.log("mpirun"),
@@ -194,6 +196,7 @@ std::optional<Trial> resume_trial(const Candidate& candidate, const TrialCase& t
                                   const std::vector<std::string>& changes,
                                   const std::filesystem::path& folder) {
     const RunFolder run{folder / trial.name / "run"};
+    // The program claims to save its state, and no set has come of it.
     if (!std::filesystem::exists(run.checkpoints())) return std::nullopt;
     const auto silent = [](const std::string&) {};
     const auto resumed = prepare_resumption(run.root, changes, site_for(candidate), silent);

@@ -63,6 +63,8 @@ std::vector<Motion> states_of(const std::filesystem::path& recording) {
     std::vector<Motion> states;
     for_each_sent(recording, [&](const Message& message, int) {
         if (message.envelope.kind != Kind::state) return true;
+        // The state of the start has window -1 and comes first: index = window + 1. Shares of
+        // several ranks are added up.
         states.resize(static_cast<std::size_t>(message.envelope.window + 2));
         add(states.back(), decode<Motion>(message.payload));
         return true;

@@ -40,6 +40,7 @@ Finding failure_of(const JobOutcome& outcome) {
 
 // An exception is a refusal. What the Python module tells of sys.exit is none: nobody has said why.
 std::optional<std::string> refusal_of(const Trial& trial) {
+    // A history begins when all have started: what fails later is no refusal.
     if (trial.outcome.code != ExitCode::participant_failed || !trial.history.empty())
         return std::nullopt;
     const auto words = failure_told(trial.recording);
@@ -53,6 +54,7 @@ Finding within(double error, double limit, const std::string& what) {
 }
 
 double worst(const std::vector<double>& column, const std::vector<double>& expected) {
+    // A run that ended early has fewer rows.
     if (column.size() != expected.size()) return INFINITY;
     double error = 0.0;
     for (std::size_t i = 0; i < column.size(); ++i)

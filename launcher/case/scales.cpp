@@ -18,6 +18,7 @@ namespace {
 double reynolds_velocity_viscosity(const Settings& settings, Scales& scales) {
     if (!settings.has("fluid.reynolds")) return 0.0;
     scales.reynolds = settings.real("fluid.reynolds");
+    // nu = u_c D/Re_c
     return scales.velocity * scales.diameter / scales.reynolds;
 }
 
@@ -47,6 +48,7 @@ Scales physical(const Settings& settings) {
                           : sedimentation_velocity(scales.diameter, scales.gravity,
                                                    settings.real("grains.density_ratio"),
                                                    settings.real("scales.compacity"));
+    // t_c = D/u_c
     scales.time = scales.diameter / scales.velocity;
     scales.reynolds = scales.velocity * scales.diameter / scales.viscosity;
     return scales;
@@ -88,6 +90,8 @@ void set_slices(Settings& settings, double diameter) {
 
 double sedimentation_velocity(double diameter, double gravity, double density_ratio,
                               double compacity) {
+    // Topin 2011, Eq. 21, with a root over its first factors: as printed it has the unit of a
+    // squared velocity. |rho_r - 1|, so that light grains have a scale too.
     const double fall = std::numbers::pi * diameter / 2.0 * std::abs(density_ratio - 1.0) * gravity;
     return std::sqrt(fall) * std::pow(1.0 - compacity, 5);
 }
@@ -109,6 +113,7 @@ void set_run_values(Settings& settings, const Scales& scales) {
     // m g in air of a disc of diameter D, per unit length, or of a sphere: the unit of forces in
     // contact laws.
     const double disc = std::numbers::pi / 4.0 * scales.diameter * scales.diameter;
+    // (pi/4) D^2, in space (pi/6) D^3
     const double size_of_grain = space ? disc * scales.diameter / 1.5 : disc;
     settings.set("run.grain_weight", size_of_grain * settings.real("grains.density_ratio") *
                                          scales.fluid_density * scales.gravity);
@@ -116,6 +121,7 @@ void set_run_values(Settings& settings, const Scales& scales) {
     settings.set("run.viscosity", wet ? scales.viscosity : 0.0);
     const std::vector<double> acceleration =
         real_list("fluid.acceleration", settings.text("fluid.acceleration"));
+    // From [u_c/t_c].
     settings.set("run.acceleration_x", acceleration.at(0) * scales.velocity / scales.time);
     settings.set("run.acceleration_y", acceleration.at(1) * scales.velocity / scales.time);
     settings.set("run.size_x", size.at(0) * scales.diameter);

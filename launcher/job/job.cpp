@@ -52,12 +52,16 @@ void redirect(int stream, const std::filesystem::path& file) {
 }
 
 [[noreturn]] void become(const JobOrder& order, const sigset_t& mask, pid_t parent) {
+    // A session of its own, in which all processes of the job can be found again.
     setsid();
     prctl(PR_SET_PDEATHSIG, SIGTERM);  // a job must not outlive a killed `turbidite`
+    // The parent may have died before prctl, which then would never send its signal.
     if (getppid() != parent) _exit(cannot_start);
+    // The job must not inherit the blocked signals, or no SIGTERM would reach mpirun.
     sigprocmask(SIG_SETMASK, &mask, nullptr);
     redirect(STDERR_FILENO, order.error_log);
     if (!order.output_log.empty()) redirect(STDOUT_FILENO, order.output_log);
+    // Nothing of the terminal's input goes to the job.
     const int nothing = open("/dev/null", O_RDONLY);
     if (nothing >= 0) dup2(nothing, STDIN_FILENO);
     std::vector<char*> arguments;
@@ -78,6 +82,7 @@ Process process_of(const std::filesystem::path& folder) {
     std::ifstream file(folder / "stat");
     std::string text;
     std::getline(file, text, '\0');
+    // The last one: a program's name may contain parentheses and spaces.
     const auto end_of_name = text.rfind(')');
     if (end_of_name == std::string::npos) return {};
     char state = 0;
@@ -110,6 +115,7 @@ bool has_ended(pid_t child) {
 }
 
 void end_session(pid_t child, const BlockedSignals& signals) {
+    // To the process group of mpirun, which passes it on.
     kill(-child, SIGTERM);
     using Clock = std::chrono::steady_clock;  // a clock that is set would shorten or stretch it
     const auto deadline = Clock::now() + grace;
@@ -128,6 +134,7 @@ class LeftAlone {
         const bool alone = std::none_of(
             processes.begin(), processes.end(),
             [child](const Process& process) { return process.runs && process.id != child; });
+        // Not before the first child: mpirun takes a moment to start its ranks.
         had_children_ = had_children_ || !alone;
         seconds_ = had_children_ && alone ? seconds_ + 1 : 0;
         return seconds_ > patience;
@@ -150,6 +157,7 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
     bool overdue = false;
     const timespec second{1, 0};
     while (!has_ended(child)) {
+        // Wakes at a signal at once, else every second for the checks below.
         const int signal = sigtimedwait(&signals.set(), nullptr, &second);
         overdue = signal < 0 && ((order.overdue && order.overdue()) ||
                                  (order.ends_with_children && left_alone.too_long(child)));
@@ -160,6 +168,8 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
         if (signal == SIGCHLD || signal < 0) continue;
         const bool first = end.signal == 0;
         if (first) end.signal = signal;
+        // The first signal asks the run to stop in order. A second one, or a first that finds
+        // nobody to ask, ends the job.
         if (first && order.request_stop(signal)) continue;
         end.killed = true;
         end_session(child, signals);
@@ -184,6 +194,7 @@ JobEnd run_job(const JobOrder& order) {
                       "cannot start " + order.arguments.at(0) + ": " + std::strerror(errno));
     if (child == 0) become(order, signals.old(), self);
     const JobEnd end = watch(child, order, signals);
+    // 127, as a shell says it: execvp has failed.
     if (end.status == cannot_start && !end.killed)
         throw Failure(ExitCode::participant_failed,
                       order.arguments.at(0) + " cannot be started: is it installed?");

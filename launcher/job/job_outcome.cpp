@@ -119,6 +119,7 @@ std::string rank_of(const std::string& text, const std::vector<std::string>& ran
 std::filesystem::path log_of(const RunFolder& folder, const std::string& rank) {
     if (rank.empty()) return {};
     const std::string role = rank.substr(0, rank.find(' '));
+    // "grains rank 3" has grains.rank3.log, or grains.log if it is the only one.
     const auto own = folder.log(role + ".rank" + rank.substr(rank.rfind(' ') + 1));
     return std::filesystem::exists(own) ? own : folder.log(role);
 }
@@ -155,6 +156,8 @@ JobOutcome of_first_end(const RunFolder& folder, const FirstEnd& first,
 JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
                           const std::vector<std::string>& ranks) {
     const bool begun = std::filesystem::exists(folder.history());
+    // From the surest to the vaguest: what was done on request, what a program left in writing, the
+    // coupler's log, mpirun's own words, its status.
     if (end.killed)
         return {signal_code(end.signal),
                 begun ? "killed on request" : "stopped on request before the first window"};
@@ -198,6 +201,7 @@ std::string how_to_go_on(const RunFolder& folder) {
 JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
                           const std::vector<std::string>& ranks) {
     auto record = read_run_json(folder.record());
+    // The coupler has given its verdict: whatever mpirun says afterwards is a consequence.
     if (const auto code = record.find("exit_code");
         code != record.end() && code->is_number_integer())
         return of_record(folder, static_cast<ExitCode>(code->get<int>()),

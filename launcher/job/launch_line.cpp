@@ -51,6 +51,7 @@ Arguments fluid_command(const Settings& settings, const RunFolder& folder,
     for (std::size_t i = 1; i < programs.other_fluid.size(); ++i)
         part.push_back(programs.other_fluid[i]);
     append(part, {"-case", folder.fluid()});
+    // OpenFOAM's way: without it a program takes itself for the only process.
     if (settings.integer("fluid.ranks") > 1) part.push_back("-parallel");
     return part;
 }
@@ -65,6 +66,8 @@ class Parts {
         if (!line_.empty()) line_.push_back(":");
         append(line_, {"-x", "WM_PROJECT_DIR=" + site_.openfoam, "-x", "OMP_NUM_THREADS=1", "-x",
                        "PYTHONPATH=" + python_path(site_), "-n", std::to_string(ranks),
+                       // Every rank is started by turbidite-member, which does not use MPI and
+                       // notices how it ends (docs/decisions/job.md).
                        site_.programs.member(), folder_.root, role, std::to_string(first_),
                        std::to_string(ranks)});
         append(line_, command);
@@ -95,6 +98,7 @@ bool is_plain(char c) {
 std::string shell_quoted(const std::string& text) {
     if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
     std::string quoted = "'";
+    // A quote ends the text, stands escaped, and begins it again.
     for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return quoted + "'";
 }
@@ -127,6 +131,7 @@ std::vector<std::string> launch_arguments(const Settings& settings, const RunFol
     Parts parts(site, folder);
     Arguments coupler{programs.coupler(), folder.root};
     if (!checkpoint.empty()) coupler.push_back(checkpoint);
+    // First, so that it is world rank 0, to which all others announce themselves.
     parts.add("coupler", 1, coupler);
     if (settings.flag("fluid.enabled")) parts.add("fluid", settings, programs);
     parts.add("grains", settings, programs);

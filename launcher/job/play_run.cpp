@@ -66,6 +66,7 @@ std::vector<StartRecord> staying(const PreparedRun& prepared) {
     char host[256] = {};
     gethostname(host, sizeof host - 1);
     std::erase_if(late, [&](const StartRecord& record) {
+        // Signal 0 asks whether the process exists; on other hosts nobody can be asked.
         return record.host == host && kill(static_cast<pid_t>(record.pid), 0) != 0;
     });
     return late;

@@ -59,6 +59,7 @@ double next_end(const fs::path& history) {
     const auto row = last_row(history);
     const auto time = row.find("time");
     if (time == row.end()) return piece;
+    // The next multiple of 10 t_c, also after a piece that was interrupted.
     return piece * (std::floor(time->second / piece + 1e-9) + 1.0);
 }
 
@@ -103,7 +104,9 @@ JobOutcome play_piece(const ResolvedCase& pouring, const RunFolder& folder,
 
 bool is_at_rest(const fs::path& history, double tolerance) {
     std::map<std::string, double> row = last_row(history);
+    // Grains that begin at rest are not at rest: at least one piece is played.
     if (row.empty() || row["time"] < piece * (1.0 - 1e-9)) return false;
+    // Of a bed of even density: its centre is at half its height.
     const double height = 2.0 * row["mean_position_y"];
     return row["kinetic_energy"] < energy_at_rest(height, tolerance);
 }
@@ -112,6 +115,7 @@ fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
     std::vector<std::string> values = resolved.overrides;
     for (std::string& change : pouring_changes(resolved)) values.push_back(std::move(change));
     const ResolvedCase pouring = load_case(resolved.file, values);
+    // By what the pouring depends on: another run of the same packing finds it.
     const RunFolder folder{fs::absolute(cache_folder() / case_hash(pouring.yaml))};
     const double tolerance = pouring.settings.real("contact.tolerance");
     if (is_at_rest(folder.history(), tolerance)) {

@@ -154,6 +154,7 @@ OwnFolder folder_for(const fs::path& wanted, bool force) {
     if (!lock)
         throw folder_refused(wanted, "is in use by a run that has not ended",
                              "Wait for it, stop it, or choose another --out.");
+    // Only what looks like a run is emptied, and only with the lock.
     if (force && is_run_folder(folder))
         empty_run_folder(folder);
     else if (holds_something(folder.root))
@@ -198,6 +199,8 @@ void build_fluid(const Settings& settings, const RunFolder& folder) {
 
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
                  const std::vector<std::string>& command) {
+    // The run folder holds everything that the case names: it can be read, moved and resumed by
+    // itself.
     write_text(folder.initial_grains(), resolved.grains_csv);
     if (!resolved.walls_csv.empty()) write_text(folder.walls(), resolved.walls_csv);
     if (resolved.settings.has("grains.script"))

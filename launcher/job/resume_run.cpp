@@ -49,6 +49,7 @@ std::optional<Chosen> choose(const RunFolder& folder, const CheckpointSets& sets
     std::vector<std::string> damaged;
     for (const std::string& name : sets.names()) try {
             Chosen chosen{name, sets.verified(name)};
+            // Only once an older one is known to be whole. The run will write these windows again.
             for (const std::string& bad : damaged) sets.remove(bad);
             return chosen;
         } catch (const Failure& failure) {
@@ -111,6 +112,7 @@ void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const 
                                   "--from for its grains.",
                                   fmt::join(keys_that_may_change(), ", ")));
     const std::int64_t windows = resolved.settings.integer("run.windows");
+    // The same end is allowed: it is found out later that all is done.
     if (windows < chosen.manifest.windows)
         throw refused(
             folder.root,
@@ -121,6 +123,7 @@ void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const 
 
 void remove_requests(const RunFolder& folder) {
     std::error_code ignored;
+    // Left by the part before: the first window would obey them.
     for (const char* name : {stop_file, write_file, checkpoint_file})
         fs::remove(folder.root / name, ignored);
 }
@@ -134,6 +137,7 @@ void put_aside(const fs::path& folder) {
     std::vector<fs::path> entries;
     for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
     const auto parts = std::count_if(entries.begin(), entries.end(), is_part);
+    // part-1 is the first part of the run, and so on; that of now stays outside.
     const fs::path aside = folder / fmt::format("part-{}", parts + 1);
     fs::create_directories(aside);
     for (const fs::path& entry : entries)
@@ -158,6 +162,8 @@ void remove_later_times(const fs::path& fluid_case, double time) {
         const std::string name = entry.path().filename();
         char* end = nullptr;
         const double value = std::strtod(name.c_str(), &end);
+        // The whole name is a number: folders of OpenFOAM's times. Later ones are of windows that
+        // are played again.
         if (*end == '\0' && end != name.c_str() && value > time * (1.0 + 1e-9))
             later.push_back(entry.path());
     }
@@ -286,11 +292,13 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     const RunFolder folder{fs::path(fs::absolute(given / ".").lexically_normal()).parent_path()};
     std::shared_ptr<RunLock> lock = lock_of(folder, given);
     const CheckpointSets sets(folder.root);
+    // With the lock: no other process can be writing one.
     sets.remove_unfinished();
     const std::optional<Chosen> chosen = choose(folder, sets, say);
     const ResolvedCase resolved = load_run_folder(folder.root, overrides);
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
     if (chosen) check_changes(folder, resolved, *chosen, overrides);
+    // After the changes: a later time.end makes a run that was complete go on.
     if (is_complete(folder, resolved)) return std::nullopt;
     if (!chosen) require_no_windows(folder);
     remove_requests(folder);
@@ -301,11 +309,13 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
         return Resumed{from_the_beginning(resolved, folder, lock, site), 0, 0.0};
     }
     if (!overrides.empty())
+        // Before the job: its programs read the case and compare its hash.
         write_whole(folder.resolved_case(), [&](std::ostream& out) { out << resolved.yaml; });
     prepare_fluid(resolved, folder, *chosen);
     keep_for_recording(resolved, folder, *chosen);
     const auto line = launch_arguments(resolved.settings, folder, site, chosen->name);
     write_record(resolved, folder, chosen->manifest.windows, line);
+    // Last: what the job relies on is there, also after a power cut.
     put_run_on_disk(folder);
     return Resumed{{folder, lock, line, rank_names(resolved.settings), resolved.settings},
                    chosen->manifest.windows,

@@ -40,10 +40,13 @@ Failure cannot_open(const std::filesystem::path& path) {
 }
 
 Attempt attempt(const std::filesystem::path& path) {
+    // Not O_CLOEXEC: mpirun inherits the descriptor, and with it the lock, as long as the job
+    // lives.
     const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT, 0644);
     if (descriptor < 0) throw cannot_open(path);
     const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
     if (!locked && errno != EWOULDBLOCK) return {Try::without_locks, descriptor};
+    // A lock on a file that its owner has just removed holds nothing: another try makes a new one.
     if (locked && is_current(descriptor, path)) return {Try::taken, descriptor};
     ::close(descriptor);
     return {Try::busy, -1};
@@ -69,6 +72,7 @@ bool RunLock::is_held(const std::filesystem::path& folder) {
     const int descriptor = ::open((folder / file).c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) return false;
     if (descriptor < 0) throw cannot_open(folder / file);
+    // A shared lock is enough to ask with, and does not disturb others who ask.
     const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     ::close(descriptor);
     return held;
@@ -76,6 +80,7 @@ bool RunLock::is_held(const std::filesystem::path& folder) {
 
 RunLock::~RunLock() {
     if (descriptor_ < 0) return;
+    // Before the lock is given up: whoever takes it later finds that the name is gone.
     ::unlink(file_.c_str());
     ::close(descriptor_);
 }

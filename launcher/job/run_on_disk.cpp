@@ -37,6 +37,7 @@ void put_run_on_disk(const RunFolder& folder) {
     put_on_disk(folder.record());
     for (const fs::path& tree : {folder.grains(), folder.fluid()})
         if (fs::exists(tree)) put_tree_on_disk(tree);
+    // Names after contents, from inside out.
     put_on_disk(folder.root);
     put_names_on_disk(folder.root);
 }

@@ -30,9 +30,11 @@ fs::path first_free(const fs::path& folder) {
 
 bool has_windows(const fs::path& folder) {
     std::ifstream history(RunFolder{folder}.history());
+    // Rows are whole lines: one that was cut off does not count.
     const auto lines = std::count(std::istreambuf_iterator<char>(history), {}, '\n');
     if (lines > lines_at_the_start) return true;
     const auto sets = CheckpointSets(folder).names();  // "w00000480", newest first
+    // The set of t = 0, w00000000, holds no windows.
     return !sets.empty() && sets.front().find_first_not_of("w0") != std::string::npos;
 }
 

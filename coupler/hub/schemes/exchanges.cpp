@@ -21,6 +21,7 @@ template <class Record>
 std::vector<Record> receive(ParticipantLink& from, const Arrival& arrival, Cast& cast) {
     cast.watch.wait_for(from, arrival.kind());
     std::vector<Record> shares = from.take<Record>(arrival.kind());
+    // Numbers before grains: the checks that follow compute with them.
     for (int rank = 0; rank < from.ranks(); ++rank) arrival.check(rank, shares[rank]);
     return shares;
 }
@@ -32,6 +33,7 @@ struct Grains {
 
 Grains receive_grains(const Arrival& arrival, Cast& cast) {
     auto shares = receive<Motion>(cast.grains, arrival, cast);
+    // Then ids, since contacts name grains, and only then one list out of the shares of all ranks.
     std::vector<Leaver> leavers = cast.roster.check(shares, arrival);
     check_contacts(shares, cast.roster, arrival);
     return {cast.plan.gather(std::move(shares)), std::move(leavers)};
@@ -82,6 +84,7 @@ void check_given_motions(const std::vector<Kicks>& shares, const Motion& contact
             const GrainState& grain = *at->second;
             const double off = apart(kick.velocity, grain.velocity) +
                                grain.radius * apart(kick.angular_velocity, grain.angular_velocity);
+            // (|dU| + R |domega|) dt [m] against 1e-9 R.
             if (off * step <= 1e-9 * grain.radius) continue;
             arrival.refuse(
                 static_cast<int>(rank),
@@ -106,6 +109,7 @@ Kicks merged(const std::vector<Kicks>& shares) {
 }  // namespace
 
 Motion receive_start(Cast& cast) {
+    // -1: before the first window.
     const Arrival arrival(cast.grains, Kind::state, -1);
     Grains received = receive_grains(arrival, cast);
     cast.motion_rule.check_start(received.leavers, {received.motion, cast.plan.owners(), arrival});
@@ -140,6 +144,7 @@ std::vector<FreeResponse> play_contact_round(const Window& window, const Motion&
                                              const std::vector<std::vector<FreeResponse>>& inputs,
                                              Cast& cast, WindowResult& result) {
     cast.grains.send_each(Kind::contact_input, inputs);
+    // Work of earlier rounds; residuals, overlaps and counts are those of the last one.
     const ContactReport so_far = result.motion.report;
     result.motion = receive_motion(window, before, cast);
     result.motion.report.iterations += so_far.iterations;
@@ -159,16 +164,20 @@ void finish_window(const Window& window, const Motion& before, Cast& cast, Windo
     cast.roster.check(shares, arrival);
     check_given_motions(shares, result.motion, window.step, arrival);
     result.kicks = merged(shares);
+    // Forces and torques before the kicks leave: hosts that want forces get them with the
+    // velocities.
     cast.kick_rule.complete(result.kicks.kicks, before, window.step);
 
     std::vector<Kicks> routed;
     for (auto& kicks : cast.plan.by_owner(result.kicks.kicks))
+        // The report is that of the whole fluid, the same for every grains rank.
         routed.push_back({std::move(kicks), result.kicks.report});
     cast.grains.send_each(Kind::kick, routed);
     // While the grains move.
     const GrainBalance balance =
         cast.kick_rule.balance(result.kicks.kicks, before, result.motion, window.step);
     receive_state(window, before, cast, result);
+    // Only now are the velocities and impulses of the state known, which output is written from.
     result.grain_balance =
         cast.kick_rule.with_state(balance, result.kicks.kicks, result.motion, result.state);
 }

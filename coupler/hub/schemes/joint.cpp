@@ -38,10 +38,14 @@ class Joint final : public Scheme {
     WindowResult play(const Window& window, const Motion& before, Cast cast) override {
         cast.fluid->send_all(Kind::window, window);  // steps 1-3 begin
         cast.grains.send_all(Kind::window, window);
+        // With U^n: the fluid lets the grains fall for this window as if there were no contacts.
         cast.fluid->send_each(Kind::bodies, cast.plan.by_place(before));
         WindowResult result;
         result.joint = JointReport{};
         Responses responses = receive_responses(window, cast);
+        // At least one round. A window that uses up coupling.iterations goes on: U' keeps the
+        // momentum of grains and fluid and violates contacts a little, which the next window
+        // corrects.
         do responses = play_round(window, before, std::move(responses), cast, result);
         while (!result.joint->converged && result.joint->rounds < most_rounds_);
         send_accept(cast);

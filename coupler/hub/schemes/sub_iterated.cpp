@@ -45,6 +45,8 @@ Six with_impulse(const FreeResponse& response, const GrainState& grain) {
                 response
                     .inertia[upper_entry(static_cast<std::size_t>(i), static_cast<std::size_t>(j))];
     if (inertia.isZero(0.0)) return free;  // prescribed motion
+    // (U', omega') = (velocity, angular velocity) + A^-1 (J, K), with the impulses of the same
+    // round.
     return free + inertia.llt().solve(six(grain.contact_impulse, grain.contact_angular_impulse));
 }
 
@@ -93,6 +95,7 @@ class SubIterated final : public Scheme {
         WindowResult result;
         result.joint = JointReport{};
         QuasiNewton iteration;
+        // Empty lists in the first round: grains begin with the impulse that they hold already.
         std::vector<Responses> inputs(static_cast<std::size_t>(cast.grains.ranks()));
         for (;;) {
             const Responses corrected = play_contact_round(window, before, inputs, cast, result);
@@ -101,6 +104,8 @@ class SubIterated final : public Scheme {
             report.mismatch = largest_of(off);
             report.converged = report.mismatch <= tolerance_;
             if (report.converged || report.rounds >= most_rounds_) break;
+            // The next x less the present one, on top of the U^{n+4/5} that the present one has led
+            // to.
             inputs = cast.plan.by_owner(targets(result.motion, iteration.step(off)));
         }
         send_accept(cast);

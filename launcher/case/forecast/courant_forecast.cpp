@@ -17,6 +17,7 @@ namespace {
 double speed_of_a_fall(const Scales& scales, double ratio) {
     const double weight =
         std::abs(ratio - 1.0) * scales.gravity * std::numbers::pi / 4.0 * scales.diameter;
+    // `weight` is over D: U^2 = 2 weight, and U = weight D/(2 pi nu).
     const double inertial = std::sqrt(2.0 * weight);
     const double viscous = weight * scales.diameter / (2.0 * std::numbers::pi * scales.viscosity);
     return std::min(inertial, viscous);
@@ -38,6 +39,7 @@ double forecast_courant(const ResolvedCase& resolved) {
     const double speed = std::max(speed_of_a_fall(scales, settings.real("grains.density_ratio")),
                                   fastest_grain(resolved));
     const double cell = scales.diameter / settings.real("fluid.cells_per_diameter");
+    // |u| dt/h of the fastest grain; the flow around it may be faster.
     return speed * settings.real("run.step") / cell;
 }
 

@@ -52,6 +52,7 @@ double bytes_of_fields(const Settings& settings) {
     const bool vectors = in_space(settings) && more.find("vorticity") != std::string::npos;
     const double more_bytes =
         of_scalar_field * words(more) + (vectors ? of_vector_field - of_scalar_field : 0.0);
+    // The box program writes 4 bytes where OpenFOAM writes 8.
     if (fluid_program(settings) == FluidProgram::box) return of_box_field_set + 0.5 * more_bytes;
     return of_field_set + more_bytes;
 }
@@ -62,12 +63,14 @@ double bytes_of_slices(const Settings& settings) {
     const auto per_diameter = static_cast<double>(settings.integer("fluid.cells_per_diameter"));
     double cells = 0.0;
     for (const SlicePlane& plane : slices_of(settings))
+        // All cells over the number of equal ones along the plane's normal.
         cells += fluid_cells(settings) / (size.at(plane.axis) * per_diameter);
     return of_slice * cells;
 }
 
 /// Those of every so many windows, and of the last one.
 double outputs(std::int64_t windows, std::int64_t every) {
+    // Rounded up: the last window is written whether its turn has come or not.
     return static_cast<double>((windows + every - 1) / every);
 }
 
@@ -94,6 +97,7 @@ double fluid_bytes(const Settings& settings, const RunValues& run, double sets) 
 double grain_bytes(const ResolvedCase& resolved, const RunValues& run, double sets) {
     const double planar = all_round(resolved) ? of_disc : of_polygon;
     const double per_grain =
+        // One more output than turns: that of t = 0.
         (run.dimension == 3 ? of_sphere : planar) * (1.0 + outputs(run.windows, run.output_every)) +
         of_grain_checkpoint * sets;
     return per_grain * static_cast<double>(resolved.population.size());

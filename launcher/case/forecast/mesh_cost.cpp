@@ -26,6 +26,7 @@ constexpr double gigabyte = 1e9;
 
 double fluid_rows(const Settings& settings) {
     const double top = real_list("domain.size", settings.text("domain.size")).at(1);
+    // Not rounded: a forecast, and no mesh yet.
     const double equal = top * settings.real("fluid.cells_per_diameter");
     if (!rows_are_stretched(settings)) return equal;
     const auto rows = mesh_rows(settings, top);
@@ -36,6 +37,7 @@ double fluid_cells(const Settings& settings) {
     const auto size = real_list("domain.size", settings.text("domain.size"));
     const double across = settings.real("fluid.cells_per_diameter");
     const double layer = size.at(0) * across * (in_space(settings) ? size.at(2) * across : 1.0);
+    // Only rows are stretched; columns, and layers of space, are equal.
     return layer * fluid_rows(settings);
 }
 

@@ -55,6 +55,7 @@ constexpr double handover = 0.15e-3;  // [s] from program to program of one host
 
 constexpr double seconds_to_start = 0.5;
 constexpr double seconds_of_yade = 1.5;
+// Of OpenFOAM's program only: the box program makes no mesh.
 constexpr double seconds_per_cell = 6e-6;  // blockMesh, and reading its mesh
 
 // Bytes.
@@ -74,6 +75,7 @@ const SchemeEntry& scheme_of(const ResolvedCase& resolved) {
 /// Rounds of contacts and fluid in one window.
 double rounds(const ResolvedCase& resolved) {
     const SchemeEntry& scheme = scheme_of(resolved);
+    // A single grain has the exact inertia under `joint`, so that one round is enough.
     return scheme.repeats || resolved.population.size() > 1 ? scheme.usual_rounds : 1.0;
 }
 
@@ -86,6 +88,7 @@ double covered_cells(const ResolvedCase& resolved) {
         area += shapes.at(grain.shape)->volume(grain.radius);
     const double cell =
         resolved.scales.diameter / resolved.settings.real("fluid.cells_per_diameter");
+    // Cells of edge h = D / cells_per_diameter, also where rows are stretched: grains stay below.
     return area / (cell * cell * (in_space(resolved.settings) ? cell : 1.0));
 }
 
@@ -101,6 +104,7 @@ FluidRates rates(const Settings& settings) {
 /// the others have had their turn on its core.
 double turns(const ResolvedCase& resolved, double cores) {
     const auto ranks = static_cast<double>(resolved.settings.integer("fluid.ranks"));
+    // (ranks - cores)/cores others have their turn on a core before the last one.
     return ranks > cores ? meetings * time_slice * (ranks - cores) / cores : 0.0;
 }
 
@@ -109,9 +113,12 @@ double fluid_time(const ResolvedCase& resolved, double cores) {
     if (!settings.flag("fluid.enabled")) return 0.0;
     const auto [cell, covered] = rates(settings);
     const bool stages = settings.text("fluid.time_scheme") == "second-order";
+    // Ranks that have a core of their own.
     const double ranks = std::min(cores, static_cast<double>(settings.integer("fluid.ranks")));
     return turns(resolved, cores) +
            cell * (stages ? second_order : 1.0) * fluid_cells(settings) / ranks +
+           // The busiest rank decides, with 1.6 times its equal share of the covered cells, or all
+           // of them.
            covered * covered_cells(resolved) * std::min(1.0, busiest_share / ranks);
 }
 
@@ -141,6 +148,8 @@ double grains_time(const ResolvedCase& resolved) {
 double messages_in_turn(const ResolvedCase& resolved) {
     const SchemeEntry& scheme = scheme_of(resolved);
     if (scheme.fluid.empty()) return 4.0;
+    // split: window, motion, constraint, kicks, kick, state. With rounds: a round is contact_input,
+    // motion, constraint, response; around them bodies, response, accept, kicks, kick, state.
     return scheme.has_rounds() ? 6.0 + 4.0 * rounds(resolved) : 6.0;
 }
 
@@ -151,12 +160,15 @@ bool in_yade(const Settings& settings) {
 }  // namespace
 
 double WindowForecast::seconds() const {
+    // All programs wait for the coupler and for messages.
     return (side_by_side ? std::max(fluid, grains) : fluid + grains) + coupler + messages;
 }
 
 double cores_for_a_job() {
     for (const char* nodes : {"SLURM_JOB_NUM_NODES", "SLURM_NNODES", "PBS_NUM_NODES"})
         if (const char* given = std::getenv(nodes); given != nullptr && std::atoi(given) > 1)
+            // So that no warning compares the ranks of a batch job with the cores of the machine it
+            // is sent from.
             return std::numeric_limits<double>::infinity();
     return std::max(1u, std::thread::hardware_concurrency());
 }

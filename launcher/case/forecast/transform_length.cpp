@@ -33,6 +33,7 @@ std::vector<std::string> slow_transforms(const Settings& settings) {
     const auto size = real_list("domain.size", settings.text("domain.size"));
     const double across = settings.real("fluid.cells_per_diameter");
     std::vector<std::string> slow;
+    // x and, in space, z: systems along y are solved by elimination, for which any number will do.
     for (std::size_t axis = 0; axis < size.size(); axis += 2) {
         const int cells = static_cast<int>(std::lround(size[axis] * across));
         const int factor = largest_prime_factor(cells);

@@ -55,6 +55,7 @@ std::vector<Output> outputs_of(const std::filesystem::path& series) {
 const Output& output_at(const std::vector<Output>& outputs, const EarlierRun& run,
                         double time_scale) {
     if (!run.time) return outputs.back();
+    // [t_c] of the earlier run, whose series has its own units.
     const double wanted = *run.time * time_scale;
     const auto distance = [&](const Output& o) { return std::abs(o.time - wanted); };
     const Output& nearest = *std::min_element(
@@ -164,14 +165,17 @@ EarlierGrains read_earlier_grains(const EarlierRun& run, const EarlierCase& earl
     for (std::size_t i = 0; i < n; ++i) {
         result.grains.push_back(
             {.id = static_cast<GrainId>(id[i]),
+             // Back to D, u_c and 1/t_c of the earlier run: the case may have other units.
              .x = position[3 * i] / d,
              .y = position[3 * i + 1] / d,
              .radius = radius[i] / d,
              .shape = form_of(earlier.shapes.at(static_cast<std::size_t>(shape[i])), forms),
+             // Of q = (cos a/2, 0, 0, sin a/2).
              .angle = 2.0 * std::atan2(turn[4 * i + 3], turn[4 * i]),
              .vx = velocity[3 * i] / u,
              .vy = velocity[3 * i + 1] / u,
              .spin = spin[3 * i + 2] * earlier.scales.time,
+             // Over that of the fluid, as in a grains file.
              .density = density[i] / earlier.scales.fluid_density,
              .material = material_of(earlier.materials.at(static_cast<std::size_t>(material[i])),
                                      materials),

@@ -98,6 +98,7 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
                          "(fluid.stretch_from = {}).",
                          *height, settings.text("fluid.stretch_from")),
              "Use a larger fluid.stretch_from, or fluid.allow_coarse: true."});
+    // The effective mass M - rho_f V(R_h) must be above zero unless `joint` leaves it to the fluid.
     if (!find_scheme(settings.text("coupling.scheme")).needs_inertia())
         rules.push_back(
             {[settings](const PlacedGrain& g) {
@@ -133,6 +134,7 @@ double displaced_share(const Settings& settings, double radius) {
     const double cells = settings.real("fluid.cells_per_diameter") * radius;  // of its radius
     const double seen =
         settings.real("fluid.hydrodynamic_radius") + settings.real("fluid.surface_shift") / cells;
+    // V(R_h)/V(R), R_h/R = h + s/(cells per R); at least 1, since buoyancy acts on V(R).
     return std::max(1.0, seen * seen * seen);
 }
 
@@ -158,6 +160,8 @@ CaseProblems check_periods(const Packing& grains, const Settings& settings,
         second = std::max(second, std::min(first, grain.radius));
         first = std::max(first, grain.radius);
     }
+    // R_1 + R_2 between the centres where grains touch; for both sides of one at once twice as
+    // much.
     const double least = 2.0 * (first + second);
     const PackingBox box = packing_box(settings);
     const double period =

@@ -100,6 +100,7 @@ ShapeTable used_shapes(Packing& grains, const GrainForms& forms) {
     ShapeTable table;
     for (std::size_t i = 0; i < place.size(); ++i) {
         if (place[i] < 0) continue;
+        // Only shapes that occur are sent: a program must know all in the table (hello.cpp).
         place[i] = static_cast<std::int32_t>(table.size());
         table.push_back(forms.forms[i].record);
     }

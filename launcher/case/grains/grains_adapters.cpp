@@ -54,6 +54,7 @@ bool supports(const GrainsAdapter& adapter, const SchemeEntry& scheme) {
 }
 
 const SchemeEntry& best_scheme(const GrainsAdapter& adapter) {
+    // Of a user's program it is not known whether it takes the fluid's inertia: the safe choice.
     const bool known = adapter.takes_inertia && adapter.host != GrainsHost::command;
     return known ? scheme_with_inertia() : scheme_without_rounds();
 }

@@ -20,12 +20,14 @@ constexpr double clamping_distance = 1e-3;  // in compacity; the paper rounds to
 constexpr double rounding = 1e-9;           // [D] lets an exact fit survive rounding
 
 void fill_row(Packing& grains, double first, double y, const PackingRequest& request, double a) {
+    // x from 1/2 (odd rows 1/2 + a/2) while x + 1/2 <= W
     for (int i = 0; first + i * a + 0.5 <= request.filled().width + rounding; ++i)
         grains.push_back({.id = static_cast<GrainId>(grains.size()), .x = first + i * a, .y = y});
 }
 
 Packing fill_region(const PackingRequest& request, double a) {
     Packing grains;
+    // Neighbours in adjacent rows touch: (a/2)^2 + height^2 = 1.
     const double height = std::sqrt(1.0 - a * a / 4.0);
     for (int k = 0; 0.5 + k * height + 0.5 <= request.filled().height + rounding; ++k)
         fill_row(grains, k % 2 == 0 ? 0.5 : 0.5 + a / 2.0, 0.5 + k * height, request, a);
@@ -42,9 +44,11 @@ struct Stretch {
 /// last centre; none along a periodic axis.
 Stretch stretch_along(double jitter, double last, double box, bool periodic) {
     const double strain = std::min(2.0 * std::numbers::sqrt2 * jitter, compacity_for_jitter / 2.0);
+    // A margin of j at either end, and what the stretch adds up to at the last centre.
     const double needed = 2.0 * jitter + strain * (last - 0.5);
     const double room = periodic ? 0.0 : std::max(0.0, box - 0.5 - last);
     const double part = std::min(1.0, room / needed);
+    // With less room both shrink alike.
     return {part * jitter, part * strain};
 }
 
@@ -62,6 +66,7 @@ double make_room(Packing& grains, const PackingRequest& request) {
         grain.x += x.margin + x.strain * (grain.x - 0.5);
         grain.y += y.margin + y.strain * (grain.y - 0.5);
     }
+    // The same grains on a larger area.
     return 1.0 / ((1.0 + x.strain) * (1.0 + y.strain));
 }
 
@@ -114,6 +119,7 @@ double densest_compacity() {
 double lattice_spacing(double compacity) {
     // a^2 (1 - a^2/4) = q^2 with q = (pi/4)/phi; the root between 1 and sqrt 2 is the smaller one.
     const double q = std::numbers::pi / 4.0 / compacity;
+    // Rounding at phi = pi/4, where q = 1, must not make the root imaginary.
     const double a_squared = 2.0 * (1.0 - std::sqrt(std::max(0.0, 1.0 - q * q)));
     return std::clamp(std::sqrt(a_squared), 1.0, std::numbers::sqrt2);
 }
@@ -148,10 +154,14 @@ std::int64_t shake(Packing& grains, const PackingRequest& request, const Packing
     for (const PlacedGrain& grain : grains) grid.insert(grain);
     std::int64_t moved = 0;
     for (std::size_t i = 0; i < grains.size(); ++i) {
+        // Drawn for every grain, whether it has room or not: what one grain does changes no number
+        // of the next.
         const double dx = random.uniform(-request.jitter, request.jitter);
         const double dy = random.uniform(-request.jitter, request.jitter);
         const double dz =
             request.box.in_space() ? random.uniform(-request.jitter, request.jitter) : 0.0;
+        // One after the other, each against where the others are by now: no order of moves makes an
+        // overlap.
         moved += displace(grid, i, {dx, dy, dz}, limits);
     }
     grains = grid.grains();

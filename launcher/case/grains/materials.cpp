@@ -33,6 +33,7 @@ double fallback(const Settings& s, const char* coefficient) {
 std::optional<Objection> unknown_material(const std::string& pair,
                                           const std::vector<std::string>& names) {
     const auto dash = pair.find('-');
+    // Without a dash both are the whole name: npos + 1 is 0.
     for (const std::string& name : {pair.substr(0, dash), pair.substr(dash + 1)})
         if (std::find(names.begin(), names.end(), name) == names.end())
             return Objection{
@@ -59,6 +60,7 @@ std::vector<std::string> material_names(const Settings& settings) {
     std::vector<std::string> names{"default"};
     for (const auto& [key, value] : settings.entries())
         if (const std::string name = word_behind(material_prefix, key);
+            // Settings are sorted by key: those of one material follow each other.
             !name.empty() && name != "default" && name != names.back())
             names.push_back(name);
     return names;
@@ -74,6 +76,7 @@ CaseProblems check_materials(const Settings& settings, const CaseEntries& entrie
         const std::string pair = word_behind(pair_prefix, key);
         if (material.empty() && pair.empty()) continue;
         const std::string group = key.substr(0, key.rfind('.'));
+        // Once per material or pair, not once per coefficient.
         if (!seen.insert(group).second) continue;
         std::optional<Objection> objection;
         if (material == "default")

@@ -20,6 +20,7 @@ std::size_t cells_along(double length, double cell, bool in_space) {
 }
 
 std::size_t cell_of(double place, double length, std::size_t count) {
+    // A centre on the upper side, or beyond one, belongs to the cell beside it.
     const double cell = std::floor(place / length * static_cast<double>(count));
     return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(count - 1)));
 }
@@ -37,6 +38,7 @@ class CellsAround {
 
  private:
     void add(std::size_t cell) {
+        // With one or two cells along a cyclic direction the neighbours on both sides are the same.
         if (std::find(begin(), end(), cell) == end()) cells_[size_++] = cell;
     }
 
@@ -53,6 +55,7 @@ double nearest_image(double distance, double length, bool periodic) {
 NeighbourGrid::NeighbourGrid(const PackingBox& box, double largest_radius, double reach,
                              const GrainForms* forms)
     : box_(box), forms_(forms), cell_(2.0 * largest_radius + reach) {
+    // Rounded down: cells are at least as wide as the largest distance that matters.
     columns_ = cells_along(box.width, cell_, box.in_space());
     rows_ = cells_along(box.height, cell_, box.in_space());
     if (box.in_space()) layers_ = cells_along(box.depth, cell_, true);
@@ -113,6 +116,7 @@ bool NeighbourGrid::is_closer(const PlacedGrain& one, const PlacedGrain& other,
 
 double NeighbourGrid::gap(const PlacedGrain& one, const PlacedGrain& other) const {
     if (forms_ == nullptr || box_.in_space()) return circle_gap(one, other);  // all are spheres
+    // Outlines know no period: the nearest image is placed instead.
     PlacedGrain image = other;
     image.x = one.x + nearest_image(other.x - one.x, box_.width, box_.periodic_x);
     image.y = one.y + nearest_image(other.y - one.y, box_.height, box_.periodic_y);
@@ -142,6 +146,7 @@ std::vector<std::size_t> NeighbourGrid::near(double x, double y, double z) const
 
 bool NeighbourGrid::is_free(const PlacedGrain& grain, double smallest_gap,
                             std::size_t except) const {
+    // Grains of a lattice touch to rounding and are free all the same.
     const double least = smallest_gap - touching_tolerance;
     return !any_near(grain.x, grain.y, grain.z, [&](std::size_t index) {
         return index != except && is_closer(grain, grains_[index], least);

@@ -27,6 +27,7 @@ bool is_within(const PackingCylinder& cylinder, const Vec3& place, double radius
     const Vec3 axis = cylinder.to - cylinder.from, arm = place - cylinder.from;
     const double length = norm(axis), height = dot(arm, axis) / length;
     return height >= radius - rounding && height <= length - radius + rounding &&
+           // The sphere is inside both ends, and its centre no nearer to the shell than its radius.
            norm(arm - (height / length) * axis) <= cylinder.radius - radius + rounding;
 }
 

@@ -119,6 +119,7 @@ void set_in_space(const std::string& column, double number, PlacedGrain& grain) 
 void check_turn(CsvTable& table, int line, PlacedGrain& grain) {
     double square = 0.0;
     for (const double part : grain.turn) square += part * part;
+    // |q|^2, so up to 5e-4 in the length: four digits in the file are enough.
     if (std::abs(square - 1.0) > 1e-3) {
         table.refuse(line,
                      fmt::format("grain {}: ({}) is no unit quaternion", grain.id,
@@ -189,6 +190,7 @@ PlacedGrain grain_of(CsvTable& table, const CsvTable::Row& row, const FileWords&
     check_fixed(table, row, grain);
     const auto& columns = table.columns;
     if (std::find(columns.begin(), columns.end(), "radius") == columns.end())
+        // Only now, since the default follows from the shape, which may be a later column.
         grain.radius = forms.forms[static_cast<std::size_t>(grain.shape)].radius;
     return grain;
 }
@@ -257,6 +259,7 @@ std::array<double, 6> extents_of(const PlacedGrain& grain, const GrainForms& for
         extents.fill(grain.radius);
         return extents;
     }
+    // From +x, -x, +y, -y to the order of box_sides.
     const auto [right, left, up, down] = reach(placed_outline(grain, forms));
     return {left, right, down, up};
 }
@@ -279,9 +282,11 @@ Excess worst_side(const PlacedGrain& grain, const PackingBox& box, const SolidSi
     Excess worst{"", -std::numeric_limits<double>::infinity()};
     for (std::size_t i = 0; i < side_count(forms.dimension); ++i) {
         const auto& [name, key, axis, inward] = box_sides[i];
+        // Whole grains stay inside of walls; at free and cyclic sides only their centres.
         const double margin = walls.solid[i] ? extents[i] : 0.0;
         const double beyond =
             inward > 0.0 ? margin - place[axis] : place[axis] + margin - size[axis];
+        // The farthest one: a grain in a corner is told once.
         if (beyond > worst.beyond) worst = {name, beyond};
     }
     return worst;
@@ -318,6 +323,8 @@ class GrainsSoFar {
     GrainsSoFar(const Packing& grains, const PackingBox& box, const GrainForms& forms)
         : grains_(grains),
           most_(4.0 * median_radius(grains)),
+          // Cells of 2 R_max of those in the grid (NeighbourGrid); pairs with a large one are
+          // looked at one by one.
           grid_(box, std::min(largest_radius(grains), most_), 0.0, &forms) {}
 
     const NeighbourGrid& geometry() const { return grid_; }
@@ -357,6 +364,7 @@ void check_overlaps(const Packing& grains, const PackingBox& box, const GrainFor
     GrainsSoFar so_far(grains, box, forms);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         for (const std::size_t j : so_far.near(i)) {
+            // Circumscribed circles that are apart settle it; outlines cost more.
             if (so_far.geometry().circle_gap(grains[i], grains[j]) >= -tolerance) continue;
             const double gap = so_far.geometry().gap(grains[i], grains[j]);
             if (gap < -tolerance)
@@ -366,6 +374,7 @@ void check_overlaps(const Packing& grains, const PackingBox& box, const GrainFor
                              "Grains may touch but not overlap by more than grains.overlap.",
                              "Move one of them.");
         }
+        // After its own check: each pair is looked at once.
         so_far.add(i);
     }
     problems.finish("overlaps");
@@ -421,6 +430,7 @@ bool is_turned_in_space(const PlacedGrain& grain, const GrainForms&) {
 std::string motion_of(const PlacedGrain& grain) {
     if (!grain.prescribed) return "free";
     if (!grain.motion.empty()) return grain.motion;
+    // Both keep their velocity; a fixed one has none.
     return moves(grain, plain_discs()) ? "driven" : "fixed";
 }
 

@@ -36,6 +36,7 @@ Packing on_lattice(const PackingRegion& region, const std::vector<double>& radii
     const SpaceLattice& lattice = space_lattice("fcc");
     Packing sites;
     double size = 1.0;
+    // A stand-in must have its number of grains, not their size: smaller until all have a site.
     for (; sites.size() < radii.size(); size *= 0.97)
         sites =
             lattice_sites(lattice, region, size * radii.front(), lattice.densest(), radii.size());
@@ -67,6 +68,8 @@ std::vector<double> radii_of(const Settings& settings) {
 
 /// The type of a side while grains are poured: nothing leaves.
 std::string type_of(const Settings& settings, const BoxSide& side, bool smaller) {
+    // Ground and top are walls always. A region that ends before the box has walls there, which the
+    // run itself does not have.
     const bool cyclic = settings.text(side.key) == "cyclic" && side.axis != 1 && !smaller;
     return cyclic ? "cyclic" : "wall";
 }
@@ -96,6 +99,7 @@ std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
     const Ground ground = ground_of(settings);
     const std::vector<double> radii = radii_of(settings);
     const double solid = solid_volume(radii);
+    // A box in which the grains fill a quarter at random places, and two of the largest on top.
     const double height =
         std::ceil(solid / (loose_fraction * ground.length * ground.depth)) + 4.0 * radii.front();
     std::vector<std::string> changes = sides(settings, ground);
@@ -104,6 +108,7 @@ std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
     changes.push_back("grains.region=" + size);
     changes.push_back("fluid.enabled=false");
     changes.push_back("grains.generator=random");
+    // Whatever plays the run: pouring needs no host code.
     changes.push_back("grains.adapter=standalone-nscd");
     changes.push_back("grains.script=~");
     if (settings.has("grains.extra_file")) changes.push_back("grains.extra_file=~");

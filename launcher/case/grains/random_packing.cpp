@@ -55,6 +55,7 @@ bool add_one(NeighbourGrid& grid, const PackingRequest& request, double radius, 
         if (has_corners(request)) grain.angle = random.uniform(0.0, 2.0 * std::numbers::pi);
         grain.radius = radius;
         grain.id = static_cast<GrainId>(grid.grains().size());
+        // Random sequential addition: a place that is taken is thrown away, nothing moves.
         if (!grid.is_free(grain, gap)) continue;
         grid.insert(grain);
         return true;
@@ -64,6 +65,7 @@ bool add_one(NeighbourGrid& grid, const PackingRequest& request, double radius, 
 
 /// Empty if the grains did not fit with this gap.
 Packing add_one_by_one(const PackingRequest& request, double gap) {
+    // Begun anew for every gap: the packing does not depend on the gaps that failed.
     RandomNumbers random(request.seed);
     const std::vector<double> radii = draw_radii(request, random);
     NeighbourGrid grid(request.box, radii.empty() ? 0.5 : radii.front(), gap, request.forms);
@@ -94,6 +96,7 @@ Packing enough_sites(const PackingRequest& request) {
 void keep_random_sites(Packing& sites, std::int64_t count, RandomNumbers& random) {
     for (std::int64_t i = 0; i < count; ++i) {
         const auto rest = static_cast<std::int64_t>(sites.size()) - i;
+        // Fisher and Yates: every choice of sites is equally likely.
         std::swap(sites[i], sites[i + random.index(rest)]);
         sites[i].id = i;
     }
@@ -108,6 +111,7 @@ Packing shaken_sites(const PackingRequest& request) {
     PackingRequest shaking = request;
     shaking.jitter = shaking_distance;
     for (int sweep = 0; sweep < shaking_sweeps; ++sweep) {
+        // Other displacements in every sweep.
         shaking.seed = request.seed + static_cast<std::uint64_t>(sweep);
         shake(grains, shaking, request.filled());
     }
@@ -136,6 +140,7 @@ double unit_area(const PackingRequest& request) {
     double twice = 0.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Point2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
+        // Twice the area of the triangle (0, a, b).
         twice += a[0] * b[1] - b[0] * a[1];
     }
     return 0.5 * std::abs(twice);
@@ -160,8 +165,10 @@ double smallest_radius(const PackingRequest& request) {
 std::vector<double> draw_radii(const PackingRequest& request, RandomNumbers& random) {
     std::vector<double> radii(static_cast<std::size_t>(request.count), mean_radius(request));
     if (request.size_ratio == 1.0) return radii;
+    // 2 R/(1 + q) to 2 R q/(1 + q): the mean is R
     const double smallest = smallest_radius(request);
     for (double& radius : radii) radius = random.uniform(smallest, smallest * request.size_ratio);
+    // Large ones first: small ones find room between them later.
     std::sort(radii.begin(), radii.end(), std::greater<>());
     return radii;
 }

@@ -22,6 +22,7 @@ double damping_of(double restitution) {
     double low = 0.0, high = 1.0;  // restitution falls from low to high
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
+        // Bisection: no closed form of zeta; 60 halvings are beyond the last digit.
         (restitution_of(middle) > restitution ? low : high) = middle;
     }
     return 0.5 * (low + high);
@@ -53,6 +54,7 @@ double stiffness(const Settings& settings, double damping, double height) {
     const double overlap = settings.real("contact.md_overlap");
     const double speed = deepest_of(damping) * speed_of_approach(settings, height);
     const double fall = settings.real("run.gravity") * settings.real("run.diameter");
+    // [m g/D]: h/d at rest, (f v)^2/(2 g D d^2) in an impact
     return std::max(height / overlap, speed * speed / (2.0 * fall * overlap * overlap));
 }
 
@@ -66,6 +68,7 @@ SoftContact soft_contact(const Settings& settings, double height) {
     contact.frequency = std::sqrt(2.0 * contact.stiffness * settings.real("run.gravity") /
                                   settings.real("run.diameter"));
     contact.contact_time = std::numbers::pi / contact.frequency;
+    // contact.md_substeps of them in pi/w, the time of a bounce.
     contact.substeps = std::max(
         std::int64_t{1},
         static_cast<std::int64_t>(std::ceil(settings.real("run.step") / contact.contact_time *

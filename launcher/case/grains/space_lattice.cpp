@@ -32,6 +32,7 @@ PlacedGrain sphere_at(const Vec3& place, double radius, std::size_t index) {
 }  // namespace
 
 double SpaceLattice::densest() const {
+    // phi = N (pi/6) D^3 / a^3, with D = 1
     return std::numbers::pi / 6.0 * static_cast<double>(sites.size()) / (edge * edge * edge);
 }
 
@@ -59,6 +60,7 @@ const SpaceLattice& space_lattice(const std::string& name) {
 // Layer by layer from below, so that ids ascend with height.
 Packing lattice_sites(const SpaceLattice& lattice, const PackingRegion& region, double radius,
                       double compacity, std::size_t most) {
+    // a (phi_densest/phi)^(1/3), of spheres of diameter 2 R
     const double edge =
         2.0 * radius * lattice.edge * std::cbrt(std::max(1.0, lattice.densest() / compacity));
     const std::int64_t nx = cells_along(region.width, radius, edge);
@@ -72,6 +74,8 @@ Packing lattice_sites(const SpaceLattice& lattice, const PackingRegion& region, 
                     const Vec3 steps{i + site[0], j + site[1], k + site[2]};
                     const Vec3 place =
                         region.corner + (Vec3{radius, radius, radius} + edge * steps);
+                    // The last cell along an axis has its first site inside, but not all of them;
+                    // in a cylinder any may be outside.
                     if (!region.holds(place, radius)) continue;
                     grains.push_back(sphere_at(place, radius, grains.size()));
                     if (grains.size() == most) return grains;

@@ -63,6 +63,7 @@ Packing enough_sites(const PackingRequest& request, double largest) {
     constexpr int steps = 64;
     const SpaceLattice& lattice = space_lattice("fcc");
     const std::vector<double> all_largest(static_cast<std::size_t>(request.count), largest);
+    // Looser ones than this cannot have enough: the search begins there.
     const double needed = solid_volume(all_largest) / request.filled().volume();
     for (int i = std::max(1, static_cast<int>(steps * needed / lattice.densest())); i <= steps;
          ++i) {
@@ -129,6 +130,7 @@ PackingResult random_space_packing(const PackingRequest& request) {
         return result;
     }
     RandomNumbers random(request.seed);
+    // Before any place is drawn: the radii do not depend on how often places fail.
     const std::vector<double> radii = draw_radii(request, random);
     const double fraction = solid_volume(radii) / request.filled().volume();
     if (fraction > largest_random_fraction) {

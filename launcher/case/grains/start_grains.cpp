@@ -152,6 +152,7 @@ SolidSides solid_sides(const Settings& settings) {
     SolidSides sides;
     const std::size_t count = side_count(in_space(settings) ? 3 : 2);
     for (std::size_t i = 0; i < count; ++i)
+        // Walls, and inflows, which are walls for grains.
         sides.solid[i] = holds_grains(settings.text(box_sides[i].key));
     return sides;
 }
@@ -184,11 +185,13 @@ StartGrains start_grains(const Settings& settings, const CaseEntries& entries,
                          const GrainForms& forms, const std::filesystem::path& folder,
                          const GivenGrains& given) {
     if (!are_described(settings, entries, given)) return {};
+    // The run folder's own file has everything, those of the extra file too.
     if (!given.file.empty()) return grains_from_file(given.file, settings, entries, forms);
     StartGrains start;
     if (given.earlier)
         start = grains_of(*given.earlier, settings, forms);
     else if (settings.has("grains.file"))
+        // A file of the user's has all grains; extra ones are for generators and earlier runs.
         return grains_from_file(folder / settings.text("grains.file"), settings, entries, forms);
     else
         start = generated_grains(settings, entries, forms);

@@ -88,6 +88,7 @@ void check_together(CsvTable& table, const char* one, const char* other) {
 /// How far the images of a wall are that may reach grains in the box, the wall itself included.
 std::vector<Point2> image_shifts(const InnerWall& wall, const PackingBox& box) {
     const auto most = [](bool periodic, double from, double to, double length) {
+        // Ends may lie outside the box by several periods: as many images bring them back.
         return periodic ? 1 + static_cast<int>(std::max(std::abs(from), std::abs(to)) / length) : 0;
     };
     const int across = most(box.periodic_x, wall.from[0], wall.to[0], box.width);
@@ -129,6 +130,7 @@ class StartGap {
     }
     double operator()(const PlacedGrain& grain) const {
         if (wall_.space) return surface_gap(wall_, grain);
+        // A plate is all that is nearer to its line than half its thickness.
         return smallest_gap(plates_, placed_outline(grain, forms_)) - 0.5 * wall_.thickness;
     }
 
@@ -240,6 +242,7 @@ std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
     std::vector<CaseProblem> problems;
     const double least = least_cells_of_plate * cell;
     for (const InnerWall& wall : walls)
+        // Exactly two cells are enough, to rounding.
         if (wall.thickness < least * (1.0 - 1e-12))
             problems.push_back(
                 {.source = source,
@@ -260,6 +263,7 @@ std::string walls_setting(const std::vector<InnerWall>& walls, const Scales& sca
     std::string text;
     for (const InnerWall& wall : walls) {
         const Point2 pivot = wall.pivot.value_or(middle(wall));
+        // The twelve numbers of coupler/protocol/plates.hpp.
         text += fmt::format("{}{} {} {} {} {} {} {} {} {} {} {} {}", text.empty() ? "" : ";",
                             wall.id, wall.from[0] * d, wall.from[1] * d, wall.to[0] * d,
                             wall.to[1] * d, wall.velocity[0] * u, wall.velocity[1] * u,

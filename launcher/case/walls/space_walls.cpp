@@ -139,6 +139,7 @@ void check_edges(Fields& fields, const SpaceForm& form) {
                              "Give its direction and length.");
     if (form.kind != SpaceWallKind::plate) return;
     const double length = norm(form.b);
+    // cos(a, b) = a . b/(|a| |b|)
     if (!(length > shortest) || std::abs(dot(form.a, form.b)) > right_angle * norm(form.a) * length)
         fields.refuse("the edges a and b are not those of a rectangle",
                       "bx, by, bz must be longer than 0 and at a right angle to ax, ay, az.",
@@ -227,6 +228,8 @@ double distance_to_plate(const SpaceForm& form, const Vec3& place) {
     const Vec3 arm = place - form.place;
     Vec3 nearest{};
     for (const Vec3& edge : {form.a, form.b}) {
+        // The edges are at a right angle, so each coordinate of the nearest place is found by
+        // itself.
         const double share = std::clamp(dot(arm, edge) / dot(edge, edge), 0.0, 1.0);
         nearest = nearest + share * edge;
     }
@@ -236,8 +239,11 @@ double distance_to_plate(const SpaceForm& form, const Vec3& place) {
 double distance_to_round(const SpaceForm& form, const Vec3& place) {
     const Vec3 axis = form.a / norm(form.a), arm = place - form.place;
     const double height = dot(arm, axis);
+    // A ring's axis is a direction only: its meridian runs outward at height 0.
     const double length = form.kind == SpaceWallKind::ring ? 0.0 : norm(form.a);
     const double end = has_second_radius(form.kind) ? form.radius2 : form.radius;
+    // (rho, h) of the point against the meridian: from (r1, 0) to (r1 or r2, |a|), of a ring to
+    // (r2, 0).
     return nearest_place({{{form.radius, 0.0}, {end, length}}}, {norm(arm - height * axis), height})
         .distance;
 }
@@ -285,6 +291,7 @@ double surface_gap(const InnerWall& wall, const PlacedGrain& sphere) {
     const Vec3 place{sphere.x, sphere.y, sphere.z};
     const double distance = form.kind == SpaceWallKind::plate ? distance_to_plate(form, place)
                                                               : distance_to_round(form, place);
+    // Distances have no sign: walls hold grains on both sides.
     return distance - sphere.radius - 0.5 * wall.thickness;
 }
 
@@ -295,6 +302,7 @@ Vec3 size_of(const InnerWall& wall) {
     Vec3 size{};
     for (std::size_t i = 0; i < 3; ++i)
         if (form.kind == SpaceWallKind::plate)
+            // A parallelogram: edges along an axis add up, whatever their directions.
             size[i] = std::abs(form.a[i]) + std::abs(form.b[i]);
         else  // a circle normal to the unit vector e extends by R sqrt(1 - e_i^2) along axis i
             size[i] = (form.kind == SpaceWallKind::ring ? 0.0 : std::abs(form.a[i])) +
@@ -310,6 +318,7 @@ std::string space_walls_setting(const std::vector<InnerWall>& walls, const Scale
     for (const InnerWall& wall : walls) {
         const SpaceForm& form = *wall.space;
         const auto at = std::find(materials.begin(), materials.end(), form.material);
+        // -1: no material of its own, but `friction` (space_walls.hpp).
         const auto material = at == materials.end() ? -1 : at - materials.begin();
         text += fmt::format("{}{} {} {} {} {} {} {} {} {} {} {} {} {}", text.empty() ? "" : ";",
                             wall.id, name_of(form.kind), in_metres(form.place), in_metres(form.a),

@@ -57,6 +57,7 @@ Vec3 axis_of(const Settings& s, const std::string& name) {
     if (!gives(s, name, "axis")) return {0.0, 0.0, 1.0};
     const auto given = numbers(s, name, "axis");
     const Vec3 along{given[0], given[1], given[2]};
+    // Of any length in the case: the angle alone says how far it turns.
     return along / norm(along);
 }
 
@@ -69,17 +70,20 @@ std::vector<double> shift(const Settings& s, const std::string& name,
         result.push_back(angle);
         return result;
     }
+    // A rotation vector: direction times angle [rad].
     for (const double part : axis_of(s, name)) result.push_back(angle * part);
     return result;
 }
 
 std::vector<double> constant(const Settings& s, const std::string& name, const Scales& scales) {
     return shift(s, name, numbers(s, name, "velocity"), scales.velocity,
+                 // From [u_c] and [1/t_c].
                  number(s, name, "spin") / scales.time);
 }
 
 std::vector<double> harmonic(const Settings& s, const std::string& name, const Scales& scales) {
     auto result =
+        // From [D]; a turn is an angle in the case as well.
         shift(s, name, numbers(s, name, "amplitude"), scales.diameter, number(s, name, "turn"));
     result.push_back(number(s, name, "period") * scales.time);
     result.push_back(number(s, name, "phase"));
@@ -124,6 +128,8 @@ std::optional<Objection> bad_table(const Settings& s, const std::string& name) {
     bool good = rows.size() >= n && rows.size() % n == 0 &&
                 std::all_of(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(n),
                             [](double first) { return first == 0.0; });
+    // d(0) = 0, as of every motion, and times that increase: else the interpolation divides by
+    // zero.
     for (std::size_t i = n; good && i < rows.size(); i += n) good = rows[i] > rows[i - n];
     if (good) return std::nullopt;
     if (n == 4)
@@ -265,6 +271,8 @@ Exchanged exchanged(const std::vector<Moved>& inflows, const std::vector<double>
     Exchanged sum;
     for (const Moved& inflow : inflows) {
         const BoxSide& side = box_sides.at(static_cast<std::size_t>(inflow.what));
+        // Of the layer that has come in, positive inward; times the other lengths of the box it is
+        // a volume.
         const double depth = side.inward * inflow.motion->at(time).displacement[side.axis];
         double volume = depth;
         for (std::size_t axis = 0; axis < size.size(); ++axis)
@@ -280,6 +288,7 @@ Exchanged exchanged(const std::vector<Moved>& inflows, const std::vector<double>
 std::optional<double> first_imbalance(const Settings& s) {
     Settings in_diameters;
     Scales unit;
+    // Volumes in D and t_c: whether they balance does not depend on units.
     unit.diameter = unit.velocity = unit.time = 1.0;
     in_diameters.set("run.dimension", static_cast<std::int64_t>(dimension(s)));
     in_diameters.set("run.inflow_motions", side_motions(s, unit, true));
@@ -290,6 +299,8 @@ std::optional<double> first_imbalance(const Settings& s) {
     for (long long n = 1; n <= windows; ++n) {
         const double time = step * static_cast<double>(n);
         const Exchanged volume = exchanged(inflows, size, time);
+        // An incompressible fluid has no other place to go: the net flux of every window must be
+        // zero.
         if (std::abs(volume.net) > 1e-9 * volume.either_way) return time;
     }
     return std::nullopt;
@@ -319,6 +330,7 @@ std::vector<std::string> motion_names(const Settings& s) {
     for (const auto& [key, value] : s.entries()) {
         if (key.rfind(prefix, 0) != 0) continue;
         const std::string name = key.substr(start, key.find('.', start) - start);
+        // Settings are sorted by key: those of one motion follow each other.
         if (names.empty() || names.back() != name) names.push_back(name);
     }
     return names;
