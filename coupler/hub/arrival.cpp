@@ -115,7 +115,12 @@ std::string fault_of(const ContactReport& report) {
          {std::pair{"contacts", report.contacts}, std::pair{"iterations", report.iterations},
           std::pair{"removed", report.removed}})
         if (count < 0) return fmt::format("number of {} is {}", name, count);
-    return negative({{"max_penetration", report.max_penetration},
+    if (!std::isfinite(report.film_work.value_or(0.0)))
+        return fmt::format("film_work is not finite: {}", *report.film_work);
+    return negative({{"residual", report.residual.value_or(0.0)},
+                     {"quad", report.quad.value_or(0.0)},
+                     {"max", report.max.value_or(0.0)},
+                     {"max_penetration", report.max_penetration},
                      {"wall_seconds", report.wall_seconds},
                      {"contact_violation", report.contact_violation.value_or(0.0)}});
 }

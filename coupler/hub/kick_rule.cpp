@@ -47,7 +47,8 @@ struct Balance {
             sum = sum + term;
             largest = std::max(largest, norm(term));
         }
-        if (norm(sum) <= rest) return;
+        // Also if the sum overflows to NaN, which must not pass for the balance of the next grain.
+        if (norm(sum) <= rest || std::isnan(rest)) return;
         rest = norm(sum);
         worst = grain;
     }
@@ -57,7 +58,8 @@ GrainBalance found(const Balance& linear, const Balance& angular, GrainBalance::
     // One scale for both, the largest term of any grain: a grain at rest has no scale of its own.
     // The angular terms are divided by R, so that all are momenta [kg m/s].
     const double largest = std::max(linear.largest, angular.largest);
-    const Balance& worse = linear.rest >= angular.rest ? linear : angular;
+    const Balance& worse =
+        angular.rest <= linear.rest || std::isnan(linear.rest) ? linear : angular;
     return {largest > 0.0 ? worse.rest / largest : 0.0, worse.worst, rule, largest};
 }
 

@@ -256,6 +256,13 @@ bool MotionRule::may_touch(const GrainState& grain, const Motion& before, double
     });
 }
 
+/// The same without contacts [m].
+double MotionRule::allowed_alone(const Grain& grain, double step) const {
+    // Free fall in sub-steps, without a fluid: q is the sum of small steps, not dt U^{n+1}.
+    const bool falls = substeps_ && !grain.contact && held_.count(grain.now.id) == 0;
+    return (falls ? step * change_of_speed(grain.then, grain.now) : 0.0) + same_place();
+}
+
 /// What a state may differ from its rule by; see the head of the header [m].
 double MotionRule::allowed(const Grain& grain, const Motion& before, const Limits& limits) {
     const GrainState &then = grain.then, &now = grain.now;
@@ -269,9 +276,7 @@ double MotionRule::allowed(const Grain& grain, const Motion& before, const Limit
                                              : change_of_speed(then, now);
         return limits.step * changes + limits.overlap + same_place();
     }
-    // Free fall in sub-steps, without a fluid: q is the sum of small steps, not dt U^{n+1}.
-    if (substeps_ && !grain.contact) return limits.step * change_of_speed(then, now) + same_place();
-    return same_place();
+    return allowed_alone(grain, limits.step);
 }
 
 /// Negative beyond it; infinite if no side is free.
@@ -349,7 +354,8 @@ MotionDefect MotionRule::check_state(const Window& window, const Motion& before,
                           grains[at]};
         const double found = smallest_defect(grain, window.step);
         if (found > largest.defect) largest = {found, grains[at].id};
-        if (found <= same_place()) continue;
+        // Contacts allow more, and are looked for among all grains: only where that is needed.
+        if (found <= allowed_alone(grain, window.step)) continue;
         const double can = allowed(grain, before, most);
         // One that moved with its kick but reports another velocity is left to
         // KickRule::with_state, whose message says so.

@@ -79,6 +79,7 @@ class MotionRule {
     static std::string text(const Grain& grain, double found, double can, double step);
     Limits limits(const Window& window, const Motion& before, const Motion& contact,
                   const Motion& state) const;
+    double allowed_alone(const Grain& grain, double step) const;
     double allowed(const Grain& grain, const Motion& before, const Limits& limits);
     bool is_pushed(const Grain& grain, const Limits& limits) const;
     bool may_touch(const GrainState& grain, const Motion& before, double reach) const;

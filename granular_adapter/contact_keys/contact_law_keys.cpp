@@ -37,10 +37,11 @@ Ruling moreau_has_one_restitution(const Settings& s) {
 Ruling only_discs_resist_rolling(const Settings& s) {
     const bool round = is(s, "grains.shape", "disc") || is(s, "grains.shape", "sphere");
     if (s.real("contact.rolling_friction") == 0.0 || round) return std::nullopt;
-    return Objection{fmt::format("Rolling resistance is for discs, but grains.shape = {}: polygons "
-                                 "need none, since their faces resist rolling.",
-                                 s.text("grains.shape")),
-                     "Use 0."};
+    return Objection{
+        fmt::format("Rolling resistance is for round grains, but grains.shape = {}: polygons "
+                    "need none, since their faces resist rolling.",
+                    s.text("grains.shape")),
+        "Use 0."};
 }
 
 Ruling range_of_neighbours(const Settings& s) {

@@ -14,6 +14,7 @@ struct Coefficient {
     const char* unit;
     Range range;
     const char* help;
+    bool in_space_only = false;
 };
 
 constexpr Range unit_interval{.lower = 0.0, .upper = 1.0};
@@ -23,19 +24,22 @@ const Coefficient coefficients[] = {
     {"restitution", "", unit_interval, "restitution"},
     {"restitution_tangential", "", unit_interval, "tangential restitution"},
     {"rolling_friction", "", not_negative, "rolling resistance"},
+    {"torsion_friction", "", not_negative, "torsional resistance", true},
     {"adhesion_force", "m g", not_negative,
      "force that separates two touching grains of diameter D"},
 };
 
 KeyTable keys_of(const std::string& group, const std::string& whose) {
     KeyTable table;
-    for (const Coefficient& c : coefficients)
-        table.push_back({.name = group + "." + c.name,
-                         .type = KeyType::real,
-                         .unit = c.unit,
-                         .need = Need::optional,
-                         .range = c.range,
-                         .help = c.help + std::string(" of ") + whose});
+    for (const Coefficient& c : coefficients) {
+        KeySpec key{.name = group + "." + c.name,
+                    .type = KeyType::real,
+                    .unit = c.unit,
+                    .need = Need::optional,
+                    .range = c.range,
+                    .help = c.help + std::string(" of ") + whose};
+        table.push_back(c.in_space_only ? of_space(key) : key);
+    }
     return table;
 }
 

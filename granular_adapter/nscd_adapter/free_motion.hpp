@@ -25,6 +25,6 @@ struct FreeMotion {
 /// with no response or two, or one that is fixed in the host or in the fluid but not in both;
 /// PhysicsRefused if an effective inertia is not positive definite.
 FreeMotion free_motion(const nscd::Bodies& bodies, const std::vector<FreeResponse>& responses,
-                       const std::string& when, int dimension = 2);
+                       const std::string& when, int dimension);
 
 }  // namespace turbidite

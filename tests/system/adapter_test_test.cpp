@@ -15,44 +15,69 @@ class AdapterTest : public ShellTest {
     }
 };
 
-class ShippedAdapter : public AdapterTest, public ::testing::WithParamInterface<const char*> {};
+class ShippedAdapter : public AdapterTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+    void expect_to_conform(const Answer& answer, bool on_ranks) const {
+        EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+        EXPECT_SAYS(answer.out, "\nconforms\n");
+        for (const char* requirement :
+             {"falls freely without a fluid", "settles in a linear drag (split)",
+              "lands and comes to rest", "collides and keeps momentum", "slides into rolling",
+              "collides with friction", "reports its contacts", "announces grains that leave",
+              "refuses messages out of order", "ends in order on a stop request", "repeats itself",
+              "goes on from a checkpoint"})
+            EXPECT_SAYS(answer.out, std::string("ok    ") + requirement);
+        const bool springs = std::string(GetParam()).ends_with("-md");
+        const auto grade = [](bool can) { return std::string(can ? "ok    " : "-     "); };
+        EXPECT_SAYS(answer.out, grade(!springs) + "uses the fluid's inertia");
+        EXPECT_SAYS(answer.out, grade(springs) + "repeats a window");
+        EXPECT_SAYS(answer.out, grade(!springs) + "respects held and driven grains");
+        EXPECT_SAYS(answer.out, grade(on_ranks) + "moves the same on two ranks");
+        if (!on_ranks) return;
+        EXPECT_SAYS(answer.out, " grains changed their rank");
+        EXPECT_EQ(answer.out.find(" 0 grains changed"), std::string::npos) << answer.out;
+    }
+};
 
 TEST_P(ShippedAdapter, Conforms) {
     const std::string name = GetParam();
-    const Answer answer = judge("--adapter " + name);
-    EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
-    EXPECT_SAYS(answer.out, "\nconforms\n");
-    for (const char* requirement :
-         {"falls freely without a fluid", "settles in a linear drag (split)",
-          "lands and comes to rest", "collides and keeps momentum", "slides into rolling",
-          "collides with friction", "reports its contacts", "announces grains that leave",
-          "refuses messages out of order", "ends in order on a stop request", "repeats itself",
-          "goes on from a checkpoint"})
-        EXPECT_SAYS(answer.out, std::string("ok    ") + requirement);
-    const bool springs = name.ends_with("-md"), ranks = name == "lammps-md";
-    const auto grade = [](bool can) { return std::string(can ? "ok    " : "-     "); };
-    EXPECT_SAYS(answer.out, grade(!springs) + "uses the fluid's inertia");
-    EXPECT_SAYS(answer.out, grade(springs) + "repeats a window");
-    EXPECT_SAYS(answer.out, grade(!springs) + "respects held and driven grains");
-    EXPECT_SAYS(answer.out, grade(ranks) + "moves the same on two ranks");
-    if (!ranks) return;
-    EXPECT_SAYS(answer.out, ", 2 grains changed their rank");
+    expect_to_conform(judge("--adapter " + name), name == "lammps-md");
 }
 
-INSTANTIATE_TEST_SUITE_P(Adapters, ShippedAdapter,
-                         ::testing::Values("standalone-nscd", "yade-nscd", "yade-md", "lammps-md",
-                                           "standalone-md"),
-                         [](const auto& info) {
-                             std::string name = info.param;
-                             name[name.find('-')] = '_';
-                             return name;
-                         });
+using ShippedAdapterInSpace = ShippedAdapter;
+
+TEST_P(ShippedAdapterInSpace, Conforms) {
+    const std::string name = GetParam();
+    expect_to_conform(judge("--dimension 3 --adapter " + name),
+                      name == "lammps-md" || name == "standalone-nscd");
+}
+
+std::string name_of(const ::testing::TestParamInfo<const char*>& info) {
+    std::string name = info.param;
+    name[name.find('-')] = '_';
+    return name;
+}
+const auto shipped =
+    ::testing::Values("standalone-nscd", "yade-nscd", "yade-md", "lammps-md", "standalone-md");
+INSTANTIATE_TEST_SUITE_P(Adapters, ShippedAdapter, shipped, name_of);
+INSTANTIATE_TEST_SUITE_P(Adapters, ShippedAdapterInSpace, shipped, name_of);
 
 TEST_F(AdapterTest, TheShippedFluidConforms) {
     const Answer answer = judge("--side fluid");
     EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
     EXPECT_SAYS(answer.out, "\nconforms\n");
     EXPECT_EQ(answer.out.find("-     "), std::string::npos) << answer.out;
+}
+
+TEST_F(AdapterTest, TheShippedFluidsConformInSpace) {
+    for (const char* fluid : {"openfoam", "box"}) {
+        const Answer answer = judge(std::string("--side fluid --dimension 3 --adapter ") + fluid);
+        EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+        EXPECT_SAYS(answer.out, "\nconforms\n");
+        EXPECT_EQ(answer.out.find("-     "), std::string::npos) << answer.out;
+    }
+    EXPECT_SAYS(judge("--side fluid --adapter box").err, "add --dimension 3");
+    EXPECT_SAYS(judge("--side fluid --adapter boxes").err, "there are openfoam and box");
 }
 
 /// Grains or a fluid with one fault, and the requirement that it does not meet.
@@ -104,19 +129,19 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenProgram{"OneSided", "contact-grains one-sided", "collides and",
                       "momentum along the contact differs"},
         BrokenProgram{"Slippery", "contact-grains slippery", "slides into",
-                      "velocity of a disc that slides differs"},
+                      "velocity of a grain that slides differs"},
         BrokenProgram{"Rough", "contact-grains rough", "slides into",
                       "the tangential impulse is 0.6 of the normal one"},
         BrokenProgram{"NoSpin", "contact-grains 'no spin'", "slides into",
-                      "velocity of a disc that slides differs"},
+                      "velocity of a grain that slides differs"},
         BrokenProgram{"SlipsPast", "contact-grains slippery", "collides with",
-                      "friction over normal impulse of two discs that slip differs"},
+                      "friction over normal impulse of two grains that slip differs"},
         BrokenProgram{"RoughPair", "contact-grains rough", "collides with",
                       "the tangential impulse is 0.24 of the normal one"},
         BrokenProgram{"OneSpin", "contact-grains 'one spin'", "collides with",
                       "angular momentum over friction impulse, in D, differs by 5.0e-01"},
         BrokenProgram{"OneSidedFriction", "contact-grains one-sided", "collides with",
-                      "momentum of two discs differs"},
+                      "momentum of two grains differs"},
         BrokenProgram{"MovesAll", "contact-grains 'moves all'", "respects held", "grain"},
         BrokenProgram{"HalfRecords", "contact-grains 'half records'", "reports its",
                       "the sum of its contacts, in weights, differs by 5.0e-01"},
@@ -167,6 +192,16 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenProgram{"Noisy", "broken-fluid noisy", "repeats itself", "differs between two"},
         BrokenProgram{"Forgets", "broken-fluid forgets", "goes on from", "in one part"}),
     [](const auto& info) { return info.param.name; });
+
+TEST_F(AdapterTest, BrokenInSpace) {
+    const Answer answer = judge("--dimension 3 --only 'falls freely' -- " BROKEN_PROGRAMS
+                                "broken-grains 'slow across'");
+    EXPECT_EQ(answer.code, 1) << answer.out << answer.err;
+    EXPECT_SAYS(answer.out, "velocity along z differs by");
+    const Answer plane =
+        judge("--only 'falls freely' -- " BROKEN_PROGRAMS "broken-grains 'slow across'");
+    EXPECT_EQ(plane.code, 0) << plane.out << plane.err;
+}
 
 /// A program of another kind than the shipped ones, which refuses in words what it cannot do.
 TEST_F(AdapterTest, AnHonestProgramConforms) {

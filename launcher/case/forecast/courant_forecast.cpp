@@ -7,14 +7,24 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupler/keys/key_spec.hpp"
 #include "coupler/output/courant_limit.hpp"
+#include "coupler/rigid/vec3.hpp"
 
 namespace turbidite {
 namespace {
 
-/// Weight = drag: (rho_r - 1) g pi D^2/4 = 1/2 C_D U^2 D with C_D = 1, or about 2 pi nu U per
-/// length where viscosity rules.
-double speed_of_a_fall(const Scales& scales, double ratio) {
+/// A sphere: weight = drag: (rho_r - 1) g pi D^3/6 = 1/2 C_D U^2 pi D^2/4 with C_D = 1/2, or
+/// Stokes' 3 pi nu D U where viscosity rules.
+double speed_of_a_sphere(const Scales& scales, double ratio) {
+    const double reduced = std::abs(ratio - 1.0) * scales.gravity * scales.diameter;
+    return std::min(std::sqrt(8.0 / 3.0 * reduced),
+                    reduced * scales.diameter / (18.0 * scales.viscosity));
+}
+
+/// A disc: (rho_r - 1) g pi D^2/4 = 1/2 C_D U^2 D with C_D = 1, or about 2 pi nu U per length where
+/// viscosity rules.
+double speed_of_a_disc(const Scales& scales, double ratio) {
     const double weight =
         std::abs(ratio - 1.0) * scales.gravity * std::numbers::pi / 4.0 * scales.diameter;
     // `weight` is over D: U^2 = 2 weight, and U = weight D/(2 pi nu).
@@ -26,7 +36,7 @@ double speed_of_a_fall(const Scales& scales, double ratio) {
 double fastest_grain(const ResolvedCase& resolved) {
     double fastest = 0.0;
     for (const GrainState& grain : resolved.population)
-        fastest = std::max(fastest, std::hypot(grain.velocity[0], grain.velocity[1]));
+        fastest = std::max(fastest, norm(grain.velocity));
     return fastest;
 }
 
@@ -36,8 +46,10 @@ double forecast_courant(const ResolvedCase& resolved) {
     const Settings& settings = resolved.settings;
     if (!settings.flag("fluid.enabled")) return 0.0;
     const Scales& scales = resolved.scales;
-    const double speed = std::max(speed_of_a_fall(scales, settings.real("grains.density_ratio")),
-                                  fastest_grain(resolved));
+    const double ratio = settings.real("grains.density_ratio");
+    const double fall =
+        in_space(settings) ? speed_of_a_sphere(scales, ratio) : speed_of_a_disc(scales, ratio);
+    const double speed = std::max(fall, fastest_grain(resolved));
     const double cell = scales.diameter / settings.real("fluid.cells_per_diameter");
     // |u| dt/h of the fastest grain; the flow around it may be faster.
     return speed * settings.real("run.step") / cell;

@@ -41,6 +41,8 @@ class BrokenGrains final : public ScriptedGrains {
     Motion advance(const Window& window, const std::vector<FreeResponse>& responses) override {
         const bool deaf = fault_ == "own inertia" || fault_ == "never goes back";
         ScriptedGrains::advance(window, deaf ? std::vector<FreeResponse>() : responses);
+        if (fault_ == "slow across")
+            for (GrainState& grain : motion_.grains) grain.velocity[2] *= 1.0 - 1e-6;
         if (fault_ == "noisy")
             for (GrainState& grain : motion_.grains) grain.velocity[0] += noise();
         return motion_;

@@ -31,6 +31,20 @@ TEST_F(CourantForecast, IsThatOfAFallingDisc) {
     EXPECT_EQ(forecast_courant(load("", {"fluid.enabled=false"})), 0.0);
 }
 
+// sqrt(8/3 0.5 g D) at C_D = 1/2, and 0.5 g D^2/(18 nu) of Stokes; or its own velocity.
+TEST_F(CourantForecast, IsThatOfAFallingSphere) {
+    const std::vector<std::string> space = {"dimension=3", "domain.size=[12, 12, 12]"};
+    const auto with = [&](const std::string& change) {
+        std::vector<std::string> changes = space;
+        changes.push_back(change);
+        return forecast_courant(load("", changes));
+    };
+    EXPECT_NEAR(with("fluid.reynolds=36"), std::sqrt(4.0 / 3.0) * 0.01 * 8.0, 1e-12);
+    EXPECT_NEAR(with("fluid.reynolds=0.9"), 0.5 * 0.9 / 18.0 * 0.01 * 8.0, 1e-12);
+    folder.write("fast.csv", "id,x,y,z,vz\n1,6,6,6,5\n");
+    EXPECT_NEAR(with("grains.file=fast.csv"), 5.0 * 0.01 * 8.0, 1e-12);
+}
+
 TEST_F(CourantForecast, WarnsWithTheStepThatWouldDo) {
     EXPECT_EQ(courant_warning(load("")), "");
     const std::string warning = courant_warning(load("", {"time.step=0.5"}));

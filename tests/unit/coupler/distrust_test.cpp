@@ -195,6 +195,16 @@ TEST_F(Distrust, AReportWithANegativeCount) {
     expect_end(ExitCode::physics_refused, {"report: number of contacts is -1"});
 }
 
+TEST_F(Distrust, AResidualThatIsNotFinite) {
+    grains_send(Kind::motion, [](Motion& m) { m.report.residual = NAN; });
+    expect_end(ExitCode::physics_refused, {"report: residual is not finite"});
+}
+
+TEST_F(Distrust, AWorkOfFilmsThatIsNotFinite) {
+    grains_send(Kind::state, [](Motion& m) { m.report.film_work = INFINITY; });
+    expect_end(ExitCode::physics_refused, {"report: film_work is not finite"});
+}
+
 TEST_F(Distrust, AContactThatIsNotFinite) {
     grains_send(Kind::state, [](Motion& m) {
         m.contacts.emplace(1);

@@ -52,6 +52,21 @@ TEST(KickRule, BalanceClosesForAConsistentWindowAndOnlyThen) {
     EXPECT_GT(disc.rule.balance(disc.kicks, disc.before, disc.contact, step).defect, 0.1);
 }
 
+// A sum that overflows is no number, and must not pass for the balance of the grains after it.
+TEST(KickRule, ABalanceThatOverflowsIsNotForgotten) {
+    OneDisc disc;
+    Motion after = disc.before;
+    after.grains[0].velocity = {1e308, 0.0, 0.0};
+    disc.before.grains[0].velocity = {-1e308, 0.0, 0.0};
+    after.grains[0].contact_impulse = {1e308, 0.0, 0.0};
+    for (Motion* motion : {&disc.before, &after}) {
+        motion->grains.push_back(motion->grains[0]);
+        motion->grains[1].id += 1;
+        motion->grains[1].velocity = motion->grains[1].contact_impulse = {};
+    }
+    EXPECT_FALSE(disc.rule.balance(disc.before, after, step).defect < 1.0);
+}
+
 // M (U1 - Un) = M g dt + Jc, I (w1 - wn) = Kc.
 TEST(KickRule, BalanceWithoutAFluid) {
     OneDisc disc;

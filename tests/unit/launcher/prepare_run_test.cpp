@@ -51,11 +51,13 @@ TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
     const ScratchFolder scratch;
     scratch.write("run/case.yaml", "old");
     scratch.write("run/STOP", "130");
+    scratch.write("run/probes.csv", "time\n");
     scratch.write("run/thesis.tex", "mine");
     const RunFolder folder =
         make_run_folder({.out = scratch.path() / "run", .force = true}, "case");
     EXPECT_FALSE(fs::exists(folder.resolved_case()));
     EXPECT_FALSE(fs::exists(folder.stop()));
+    EXPECT_FALSE(fs::exists(folder.root / "probes.csv"));
     EXPECT_TRUE(fs::exists(folder.root / "thesis.tex"));
 }
 
