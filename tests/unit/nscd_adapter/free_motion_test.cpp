@@ -54,7 +54,7 @@ TEST(FreeMotion, InSpaceItIsIsotropicAndOfThreeComponents) {
 TEST(FreeMotion, InThePlaneItStaysInThePlane) {
     const nscd::Bodies bodies = two_spheres();
     const FreeMotion free = free_motion(
-        bodies, {response(3, {2, 2, 2}, {1, 1, 1}), response(7, {2, 2, 2}, {1, 1, 4})}, when);
+        bodies, {response(3, {2, 2, 2}, {1, 1, 1}), response(7, {2, 2, 2}, {1, 1, 4})}, when, 2);
     const auto& mobilities = std::get<std::vector<nscd::PlanarTensor>>(free.mobilities);
     EXPECT_DOUBLE_EQ(mobilities[0].ss, 0.25);
     EXPECT_EQ(free.velocities[0].velocity, (Vec3{1.0, 2.0, 0.0}));
