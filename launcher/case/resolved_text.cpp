@@ -43,7 +43,7 @@ std::vector<std::string> names_of(const KeySpec& key, const Settings& settings) 
 // Keys without a value (`~`) that are required only in other cases are left out.
 bool is_written(const KeySpec& key, const Settings& settings) {
     if (!key.available) return false;
-    return settings.has(key.name) || key.need == Need::optional;
+    return has_words(key) || settings.has(key.name) || key.need == Need::optional;
 }
 
 }  // namespace

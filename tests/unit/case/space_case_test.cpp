@@ -66,6 +66,11 @@ TEST_F(SpaceCase, TellsThePrograms) {
     EXPECT_GT(deepest->position[2], 3.0);
 }
 
+TEST_F(SpaceCase, MaterialsHaveTorsionThatTheRunFolderKeeps) {
+    const std::string yaml = load("", {"contact.materials.steel.torsion_friction=0.125"}).yaml;
+    EXPECT_SAYS(yaml, "materials.steel.torsion_friction: 0.125");
+}
+
 TEST_F(SpaceCase, NullStandsForNothingOnlyWhereThereIsNoDefault) {
     EXPECT_SAYS(refusal("", {"grains.lattice=~"}), "grains.lattice has no value");
     EXPECT_SAYS(refusal("", {"contact.film_cutoff=~"}), "contact.film_cutoff has no value");
