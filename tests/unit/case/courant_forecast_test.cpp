@@ -39,7 +39,7 @@ TEST_F(CourantForecast, IsThatOfAFallingSphere) {
         changes.push_back(change);
         return forecast_courant(load("", changes));
     };
-    EXPECT_NEAR(with("fluid.reynolds=36"), std::sqrt(4.0 / 3.0) * 0.01 * 8.0, 1e-12);
+    EXPECT_NEAR(with("fluid.reynolds=100"), std::sqrt(4.0 / 3.0) * 0.01 * 8.0, 1e-12);
     EXPECT_NEAR(with("fluid.reynolds=0.9"), 0.5 * 0.9 / 18.0 * 0.01 * 8.0, 1e-12);
     folder.write("fast.csv", "id,x,y,z,vz\n1,6,6,6,5\n");
     EXPECT_NEAR(with("grains.file=fast.csv"), 5.0 * 0.01 * 8.0, 1e-12);
