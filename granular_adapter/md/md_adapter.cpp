@@ -181,6 +181,7 @@ Motion MdAdapter::play(const Window& window) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) loads.push_back(load(i, window.step));
     SubstepReport run = host_.run(substeps(window), loads);
     follow_migration(&sent);
+    orientation_at_start_ = sent.orientation;
     host_.read(bodies_);
     agree([&] { check_inside(bodies_, borders_, in_window(window) + " after contacts"); });
     book_contacts(sent.twist, run, window.step);
@@ -265,8 +266,9 @@ void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks)
         if (!touched_[i]) {
             bodies_.position[i] =
                 bodies_.position[i] + lag * (now.velocity - with_contact[i].velocity);
-            bodies_.orientation[i] =
-                rotated(bodies_.orientation[i], lag * (now.spin - with_contact[i].spin));
+            // From t^n on about one axis: turns about two do not commute in space, and the state
+            // must be that of t^n turned by dt omega^{n+1}.
+            bodies_.orientation[i] = rotated(orientation_at_start_[i], lag * now.spin);
         }
         // The multiplier impulse of this window is J_h of the next.
         if (hold_)

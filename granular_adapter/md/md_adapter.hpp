@@ -100,6 +100,7 @@ class MdAdapter final : public GrainsAdapter {
     std::vector<Held> held_;
     /// Whether a grain had a contact in this window.
     std::vector<std::uint8_t> touched_;
+    std::vector<Quaternion> orientation_at_start_;        ///< of this window, as it was sent
     std::optional<std::vector<ContactRecord>> contacts_;  ///< of this window, if it has output
     bool advanced_ = false;
     bool broken_ = false;   ///< another rank has failed: nothing may be exchanged with it any more
