@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// springs RUN: discs with springs and dashpots, in sub-steps, as a grains adapter. Frictionless;
-// the same model as springs.py. docs/write-an-adapter.md explains every line.
+// springs RUN: discs or spheres with springs and dashpots, in sub-steps, as a grains adapter.
+// Frictionless; the same model as springs.py. docs/write-an-adapter.md explains every line.
 #include <turbidite/coupler/participant/participant.hpp>
 #include <turbidite/coupler/protocol/run_values.hpp>
 #include <turbidite/coupler/protocol/wire.hpp>
@@ -13,7 +13,7 @@
 using namespace turbidite;
 
 class Springs : public GrainsAdapter {
-    struct Disc {
+    struct Grain {
         double mass, weight;  // cM and (M - m_f) g of step 4
         Vec3 x, v, impulse;
     };
@@ -21,7 +21,7 @@ class Springs : public GrainsAdapter {
     double omega = 0, damping = 0, deepest = 0;
     std::int64_t substeps = 1;
     Motion state;
-    std::vector<Disc> discs;
+    std::vector<Grain> moving;
 
     Hello describe() const override {
         Hello hello;
@@ -29,34 +29,43 @@ class Springs : public GrainsAdapter {
         hello.host_code = "C++";
         hello.capabilities.native_substeps = true;
         hello.capabilities.saves_state = true;
-        hello.capabilities.shapes = {"disc"};
+        hello.dimension = both_dimensions;
+        hello.capabilities.shapes = {"disc", "sphere"};
         return hello;
     }
 
     Motion initialise(const Settings& s, const ShapeTable&,
                       const std::vector<GrainState>& grains) override {
-        for (const char* side : {"left", "right", "bottom", "top"})
-            if (s.text(std::string("domain.") + side) != "wall")
-                throw std::runtime_error("springs supports four walls only");
+        run = run_values(s);
+        for (const char* side : {"left", "right", "bottom", "top", "front", "back"}) {
+            const std::string key = std::string("domain.") + side;
+            if (s.has(key) && s.text(key) != "wall")  // the plane has no front and back
+                throw std::runtime_error("springs supports walls on all sides only: " + key);
+        }
         if (s.integer("grains.ranks") > 1)  // contacts with grains of other ranks are not found
             throw std::runtime_error("springs runs on one rank only: grains.ranks");
         if (s.real("contact.friction") > 0)
             throw std::runtime_error("springs knows no friction: contact.friction");
         for (const GrainState& g : grains)
             if (g.prescribed) throw std::runtime_error("springs moves free grains only: motion");
-        run = run_values(s);
         omega = s.real("run.md_frequency"), damping = s.real("run.md_damping");
         substeps = s.integer("run.md_substeps");
         state.grains = grains;
         for (const GrainState& g : grains) {
-            const double area = M_PI * g.radius * g.radius, h = run.hydrodynamic_radius;
-            discs.push_back({area * (g.density - h * h * run.fluid_density),
-                             area * (g.density - run.fluid_density) * run.gravity,
-                             {},
-                             {},
-                             {}});
+            // The liquid may see a grain smaller or larger than it is.
+            const double seen = run.hydrodynamic_radius * g.radius + run.surface_shift;
+            moving.push_back({volume(g.radius) * g.density - volume(seen) * run.fluid_density,
+                              volume(g.radius) * (g.density - run.fluid_density) * run.gravity,
+                              {},
+                              {},
+                              {}});
         }
         return state;
+    }
+
+    double volume(double radius) const {  // of a disc per unit length
+        const double disc = M_PI * radius * radius;
+        return run.dimension == 3 ? 4.0 / 3.0 * radius * disc : disc;
     }
 
     // Spring and dashpot: no attraction.
@@ -66,30 +75,30 @@ class Springs : public GrainsAdapter {
         return std::max(0.0, reduced_mass * omega * (omega * overlap + 2 * damping * closing));
     }
 
-    void touch(Disc& a, Disc& b, double radii, double dt) {  // b may be anywhere
-        const double dx = b.x[0] - a.x[0], dy = b.x[1] - a.x[1], d = std::hypot(dx, dy);
+    void touch(Grain& a, Grain& b, double radii, double dt) {  // b may be anywhere
+        const double d = norm(b.x - a.x);
         if (d > radii) return;
-        const double n[] = {dx / d, dy / d};
-        const double closing = (a.v[0] - b.v[0]) * n[0] + (a.v[1] - b.v[1]) * n[1];
+        const Vec3 n = (b.x - a.x) / d;
+        const double closing = dot(a.v - b.v, n);
         const double f = force(radii - d, closing, a.mass * b.mass / (a.mass + b.mass));
-        for (int k : {0, 1}) a.impulse[k] -= dt * f * n[k], b.impulse[k] += dt * f * n[k];
+        a.impulse = a.impulse - dt * f * n, b.impulse = b.impulse + dt * f * n;
     }
 
     void substep(double dt) {
-        const std::vector<Disc> before = discs;
-        for (std::size_t i = 0; i < discs.size(); ++i) {
-            for (std::size_t j = i + 1; j < discs.size(); ++j)  // all pairs: an example
-                touch(discs[i], discs[j], state.grains[i].radius + state.grains[j].radius, dt);
-            Disc& d = discs[i];
+        const std::vector<Grain> before = moving;
+        for (std::size_t i = 0; i < moving.size(); ++i) {
+            for (std::size_t j = i + 1; j < moving.size(); ++j)  // all pairs: an example
+                touch(moving[i], moving[j], state.grains[i].radius + state.grains[j].radius, dt);
+            Grain& d = moving[i];
             const double r = state.grains[i].radius;
-            for (int k : {0, 1}) {
+            for (int k = 0; k < run.dimension; ++k) {
                 d.impulse[k] += dt * force(r - d.x[k], -d.v[k], d.mass);
                 d.impulse[k] -= dt * force(r - (run.size[k] - d.x[k]), d.v[k], d.mass);
             }
         }
-        for (std::size_t i = 0; i < discs.size(); ++i) {
-            Disc& d = discs[i];
-            for (int k : {0, 1}) {
+        for (std::size_t i = 0; i < moving.size(); ++i) {
+            Grain& d = moving[i];
+            for (int k = 0; k < run.dimension; ++k) {
                 const double weight = k == 1 ? dt * d.weight : 0.0;
                 d.v[k] += (d.impulse[k] - before[i].impulse[k] - weight) / d.mass;
                 d.x[k] += dt * d.v[k];
@@ -100,40 +109,44 @@ class Springs : public GrainsAdapter {
     // Step 4: configurations of the start of the window, velocities after the contacts, impulses.
     Motion advance(const Window& window, const std::vector<FreeResponse>&) override {
         deepest = 0;
-        for (std::size_t i = 0; i < discs.size(); ++i)
-            discs[i].x = state.grains[i].position, discs[i].v = state.grains[i].velocity,
-            discs[i].impulse = {};
+        for (std::size_t i = 0; i < moving.size(); ++i)
+            moving[i].x = state.grains[i].position, moving[i].v = state.grains[i].velocity,
+            moving[i].impulse = {};
         for (int k = 0; k < substeps; ++k) substep(window.step / substeps);
         state.report = {};
         state.report.iterations = substeps;
-        for (std::size_t i = 0; i < discs.size(); ++i) {
-            state.grains[i].velocity = discs[i].v;
-            state.grains[i].contact_impulse = discs[i].impulse;
-            state.report.contacts += discs[i].impulse != Vec3{};
+        for (std::size_t i = 0; i < moving.size(); ++i) {
+            state.grains[i].velocity = moving[i].v;
+            state.grains[i].contact_impulse = moving[i].impulse;
+            state.report.contacts += moving[i].impulse != Vec3{};
         }
         return state;
     }
 
-    // In the plane: about z.
-    static Quaternion turned(const Quaternion& q, double angle) {
-        const double c = std::cos(angle / 2), s = std::sin(angle / 2);
-        return {c * q[0] - s * q[3], 0, 0, c * q[3] + s * q[0]};
+    // By a vector, of angle |turn| about its direction: the product of two quaternions (w, x, y,
+    // z).
+    static Quaternion turned(const Quaternion& q, const Vec3& turn) {
+        const double angle = norm(turn), c = std::cos(angle / 2);
+        const Vec3 s = (angle > 0 ? std::sin(angle / 2) / angle : 0.5) * turn;
+        const Vec3 v{q[1], q[2], q[3]};
+        const Vec3 r = c * v + q[0] * s + cross(s, v);
+        return {c * q[0] - dot(s, v), r[0], r[1], r[2]};
     }
 
     // Corrected velocities; grains without a contact move with them over the whole window.
     Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) override {
         std::unordered_map<GrainId, const Kick*> by_id;
         for (const Kick& kick : kicks) by_id[kick.id] = &kick;
-        for (std::size_t i = 0; i < discs.size(); ++i) {
+        for (std::size_t i = 0; i < moving.size(); ++i) {
             GrainState& g = state.grains[i];
             if (!kicks.empty())  // none without a fluid
                 g.velocity = by_id.at(g.id)->velocity,
                 g.angular_velocity = by_id.at(g.id)->angular_velocity;
-            g.orientation = turned(g.orientation, window.step * g.angular_velocity[2]);
-            const bool touched = discs[i].impulse != Vec3{};
-            for (int k : {0, 1})
+            g.orientation = turned(g.orientation, window.step * g.angular_velocity);
+            const bool touched = moving[i].impulse != Vec3{};
+            for (int k = 0; k < run.dimension; ++k)
                 g.position[k] =
-                    touched ? discs[i].x[k] : g.position[k] + window.step * g.velocity[k];
+                    touched ? moving[i].x[k] : g.position[k] + window.step * g.velocity[k];
         }
         state.report.max_penetration = deepest;
         return state;

@@ -49,8 +49,18 @@ class AdapterKit : public ShellTest {
             EXPECT_NEAR(mine[i], reference[i], tolerance) << i;
     }
 
-    Answer judge(const std::string& command) const {
-        return shell("timeout 300 " TURBIDITE_PROGRAM " adapter-test -- " + command);
+    Answer judge(const std::string& command, const std::string& options = "") const {
+        return shell("timeout 300 " TURBIDITE_PROGRAM " adapter-test " + options + " -- " +
+                     command);
+    }
+
+    /// With spheres: the liquid's kick, and contacts.
+    void expect_conforms_in_space(const std::string& command, const std::string& contacts) const {
+        const Answer wet = judge(command, "--dimension 3 --only '('");
+        EXPECT_EQ(wet.code, 0) << wet.out << wet.err;
+        EXPECT_SAYS(wet.out, "ok    settles in a linear drag");
+        const Answer collision = judge(command, "--dimension 3 --only 'collides and'");
+        EXPECT_SAYS(collision.out, contacts + " collides and keeps momentum");
     }
 
     /// And refuses what it cannot do in words.
@@ -94,6 +104,9 @@ TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine
     expect_conforms("mine/build/springs");
     expect_conforms("/usr/bin/python3 mine/springs.py");
     expect_touches_nothing("mine/build/falling");
+    expect_conforms_in_space("mine/build/springs", "ok   ");
+    expect_conforms_in_space("/usr/bin/python3 mine/springs.py", "ok   ");
+    expect_conforms_in_space("mine/build/falling", "FAILS");
     expect_settled(run_external("mine/build/springs"), "springs", 1e-3);
     expect_goes_on("mine/build/springs");
     expect_settled(run_external("/usr/bin/python3 mine/springs.py"), "springs-py", 1e-3);
