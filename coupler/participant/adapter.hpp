@@ -57,8 +57,8 @@ class GrainsAdapter {
     virtual Motion advance(const Window& window, const std::vector<FreeResponse>& responses) = 0;
 
     /// Takes the corrected velocities and moves: q^{n+1} = q^n + dt U. U are the corrected
-    /// velocities, or the contact velocities if coupling.positions says so or responses were given
-    /// in this window. Returns the state at t^{n+1}, including the contacts of this window if
+    /// velocities, or the contact velocities if coupling.positions says so or `joint` has given
+    /// responses. Returns the state at t^{n+1}, including the contacts of this window if
     /// output is due. Ends the window. In a dry run there are no kicks: contact velocities are
     /// final.
     virtual Motion apply_kick(const Window& window, const std::vector<Kick>& kicks) = 0;

@@ -65,7 +65,6 @@ Hello NscdAdapter::describe() const {
     hello.host_code = host_code_;
     hello.dimension = both_dimensions;
     hello.capabilities.saves_state = true;
-    hello.capabilities.restores_within_window = true;
     hello.capabilities.serialises_state = true;
     hello.capabilities.effective_inertia = true;
     for (const auto& entry : nscd::wall_detector_list())
