@@ -58,7 +58,7 @@ def pressure_at(run, time, folder):
 def field_names(folder):
     """Names of the scalar and vector fields in a folder of `field_times`, in order."""
     if _of_box(folder):
-        return sorted(set(rectilinear.arrays(folder)) - set('xyz'))
+        return sorted(set(rectilinear.names(folder)) - set('xyz'))
     named = {path.name.removesuffix('.gz') for path in folder.iterdir() if path.is_file()}
     return sorted(name for name in named if _class_of(folder, name) in READERS)
 
@@ -67,7 +67,7 @@ def cell_values(run, folder, name):
     """A field of one (time, folder) of `field_times` as it is in the files: (depth, rows, columns), vectors (..., 3);
     depth is 1 in the plane. ValueError if it is damaged."""
     if _of_box(folder):
-        return _cells_of_box(rectilinear.arrays(folder), name)
+        return _cells_of_box(rectilinear.arrays(folder, {*'xyz', name}), name)
     return _cells(run, folder, name, READERS[_class_of(folder, name)])
 
 
@@ -84,7 +84,7 @@ def mean_square_velocity(run, time, folder):
 
 
 def _mean_square_of_box(path):
-    arrays = rectilinear.arrays(path)
+    arrays = rectilinear.arrays(path, {*'xyz', 'U'})
     of_rows = (_cells_of_box(arrays, 'U')**2).sum(axis=-1).mean(axis=(0, 2))
     return float(np.average(of_rows, weights=np.diff(arrays['y'])))
 
@@ -146,7 +146,7 @@ def row_edges(run):
         files = [path for _, path in field_times(run)]
         if not files:
             raise ValueError('fluid/fields holds no fields, and with them no mesh')
-        return rectilinear.arrays(files[0])['y']
+        return rectilinear.arrays(files[0], {'y'})['y']
     columns, _, depth = _equal_cells(run)
     points = read_points(_contents(run.folder / 'fluid/constant/polyMesh/points'))
     edges = points[:len(points) // (depth + 1):columns + 1, 1]  # x runs fastest, then y
