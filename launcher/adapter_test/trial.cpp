@@ -15,55 +15,43 @@
 namespace turbidite {
 namespace {
 
-constexpr auto case_of_grains_in_plane =
-    "domain: {size: [16, 10]}\n"
-    "grains: {file: grains.csv, density_ratio: 1.5}\n"
+constexpr auto case_of_all =
     "contact: {friction: 0}\n"
-    // The mesh belongs to the fluid that is not there, and is as small as the case allows.
-    "fluid: {reynolds: 10, cells_per_diameter: 4, hydrodynamic_radius: 1}\n"
-    "coupling: {scheme: split}\n"
-    "time: {step: 0.01, end: 0.2}\n"
-    "output: {interval: 0.01}\n"
-    "limits: {stall_soft: 10, stall_hard: 30, start: 60}\n";
-
-constexpr auto case_of_grains_in_space =
-    "dimension: 3\n"
-    "domain: {size: [16, 10, 4]}\n"
-    "grains: {file: grains.csv, density_ratio: 2.5}\n"
-    "contact: {friction: 0}\n"
-    "fluid: {reynolds: 10, cells_per_diameter: 8}\n"
-    "coupling: {scheme: split}\n"
-    "time: {step: 0.01, end: 0.2}\n"
-    "output: {interval: 0.01}\n"
-    "limits: {stall_soft: 10, stall_hard: 30, start: 60}\n";
-
-// The grains of the partner touch nothing, so that they must stay apart.
-constexpr auto case_of_fluid_in_plane =
-    "domain: {size: [8, 8]}\n"
-    "grains: {file: grains.csv, density_ratio: 1.5}\n"
-    "contact: {friction: 0}\n"
-    "fluid: {reynolds: 36, cells_per_diameter: 8, hydrodynamic_radius: 1}\n"
-    "coupling: {scheme: split}\n"
-    "time: {step: 0.01, end: 0.2}\n"
-    "output: {interval: 0.01}\n"
-    "limits: {stall_soft: 10, stall_hard: 30, start: 60}\n";
-
-constexpr auto case_of_fluid_in_space =
-    "dimension: 3\n"
-    "domain: {size: [8, 8, 4]}\n"
-    "grains: {file: grains.csv, density_ratio: 2.5}\n"
-    "contact: {friction: 0}\n"
-    "fluid: {reynolds: 36, cells_per_diameter: 8}\n"
     "coupling: {scheme: split}\n"
     "time: {step: 0.01, end: 0.2}\n"
     "output: {interval: 0.01, fields_interval: 10}\n"
     "limits: {stall_soft: 10, stall_hard: 30, start: 60}\n";
 
+// The mesh belongs to the fluid that is not there, and is as small as the case allows.
+constexpr auto case_of_grains_in_plane =
+    "domain: {size: [16, 10]}\n"
+    "grains: {file: grains.csv, density_ratio: 1.5}\n"
+    "fluid: {reynolds: 10, cells_per_diameter: 4, hydrodynamic_radius: 1}\n";
+
+constexpr auto case_of_grains_in_space =
+    "dimension: 3\n"
+    "domain: {size: [16, 10, 4]}\n"
+    "grains: {file: grains.csv, density_ratio: 2.5}\n"
+    "fluid: {reynolds: 10, cells_per_diameter: 8}\n";
+
+// The grains of the partner touch nothing, so that they must stay apart.
+constexpr auto case_of_fluid_in_plane =
+    "domain: {size: [8, 8]}\n"
+    "grains: {file: grains.csv, density_ratio: 1.5}\n"
+    "fluid: {reynolds: 36, cells_per_diameter: 8, hydrodynamic_radius: 1}\n";
+
+constexpr auto case_of_fluid_in_space =
+    "dimension: 3\n"
+    "domain: {size: [8, 8, 4]}\n"
+    "grains: {file: grains.csv, density_ratio: 2.5}\n"
+    "fluid: {reynolds: 36, cells_per_diameter: 8}\n";
+
 std::string case_of(const Candidate& candidate) {
     const bool space = candidate.dimension == 3;
-    if (candidate.side == Role::fluid)
-        return space ? case_of_fluid_in_space : case_of_fluid_in_plane;
-    return space ? case_of_grains_in_space : case_of_grains_in_plane;
+    const char* own = candidate.side == Role::fluid
+                          ? (space ? case_of_fluid_in_space : case_of_fluid_in_plane)
+                          : (space ? case_of_grains_in_space : case_of_grains_in_plane);
+    return std::string(own) + case_of_all;
 }
 
 constexpr double middle = 2.0;  // of the depth [D]
