@@ -43,7 +43,7 @@ class CInterface : public ShellTest {
 };
 
 TEST_F(CInterface, AProgramOfTheFirstHeaderRunsAsBefore) {
-    const std::string source = TURBIDITE_SOURCE_DIR "/examples/falling.c";
+    const std::string source = headers + "/first_header/falling.c";
     compile(source, headers + "/first_header", "old");
     compile(source, "present", "new");
     const std::string symbol = " | grep -o 'turbidite_run_grains.*'";
