@@ -24,6 +24,7 @@
 #include <string>
 
 #include "coupler/output/run_record.hpp"
+#include "coupler/protocol/host_name.hpp"
 #include "coupler/protocol/run_files.hpp"
 #include "coupler/protocol/start_record.hpp"
 #include "coupler/protocol/whole_file.hpp"
@@ -71,12 +72,6 @@ void open_log(const Member& member) {
     dup2(log, STDOUT_FILENO);
     dup2(log, STDERR_FILENO);
     close(log);
-}
-
-std::string host_name() {
-    char host[256] = {};
-    gethostname(host, sizeof host - 1);
-    return host;
 }
 
 [[noreturn]] void become(const Member& member) {

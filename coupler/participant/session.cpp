@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "coupler/participant/conversation.hpp"
+#include "coupler/protocol/host_name.hpp"
 
 namespace turbidite {
 
@@ -108,12 +109,6 @@ bool Session::step() {
 }
 
 namespace {
-
-std::string host_name() {
-    char name[256] = {};
-    gethostname(name, sizeof name - 1);
-    return name;
-}
 
 Hello complete(Hello hello, Role role, const Identity& identity) {
     hello.role = role;

@@ -102,6 +102,21 @@ std::vector<StartRecord> not_yet_at(StartStep step, const std::filesystem::path&
     return late;
 }
 
+std::vector<std::string> hosts_of_started(const std::filesystem::path& run) {
+    std::vector<std::string> hosts;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder(run), none)) {
+        std::ifstream file(entry.path());
+        // A record that is being written has no host yet.
+        if (std::string host; std::getline(file, host)) hosts.push_back(received_line(host));
+    }
+    return hosts;
+}
+
+std::string unbegun_text(double limit) {
+    return "mpirun has started no program of the job within limits.start = " + seconds(limit);
+}
+
 std::string late_start_text(StartStep step, const std::vector<StartRecord>& late, double limit) {
     if (late.empty())
         return "not all programs of the job have joined within limits.start = " + seconds(limit);

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/host_name.hpp"
 
 namespace turbidite {
 namespace {
@@ -16,12 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr auto longest_unwritten = std::chrono::seconds(1);
 constexpr std::size_t most_unwritten = 1 << 16;  // [bytes]
-
-std::string host_name() {
-    char name[256] = {};
-    ::gethostname(name, sizeof name - 1);
-    return name;
-}
 
 /// Microseconds of the machine's monotonic clock, the same for all processes of a host.
 double microseconds(std::chrono::steady_clock::time_point at) {

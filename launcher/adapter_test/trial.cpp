@@ -9,6 +9,7 @@
 
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/job/job.hpp"
+#include "launcher/job/overdue.hpp"
 #include "launcher/job/resume_run.hpp"
 #include "launcher/job/run_json.hpp"
 
@@ -129,14 +130,15 @@ LaunchSite site_for(const Candidate& candidate) {
 }
 
 JobEnd start(const std::vector<std::string>& line, const RunFolder& folder,
-             const std::string& name) {
+             const Settings& settings, const std::string& name) {
     // No lines that rewrite themselves: all output goes to files.
     ::setenv("TURBIDITE_PROGRESS", "plain", 1);
     const JobEnd end = run_job({.arguments = line,
                                 .error_log = folder.log("mpirun"),
                                 .output_log = folder.log("output"),
                                 .request_stop = [](int) { return false; },
-                                .ends_with_children = true});
+                                .overdue = Overdue(folder, settings),
+                                .had_children = [&] { return played_here(folder); }});
     if (end.signal != 0)
         throw Failure(ExitCode::interrupted, "adapter-test was interrupted in \"" + name + "\"");
     return end;
@@ -144,7 +146,7 @@ JobEnd start(const std::vector<std::string>& line, const RunFolder& folder,
 
 Trial played(const PreparedRun& prepared, const Candidate& candidate, const Settings& settings,
              const std::string& name) {
-    const JobEnd end = start(prepared.line, prepared.folder, name);
+    const JobEnd end = start(prepared.line, prepared.folder, prepared.settings, name);
     JobOutcome outcome = settle_outcome(prepared.folder, end, prepared.ranks);
     if (outcome.code != ExitCode::done) outcome.log_tail = last_words(prepared.folder, outcome);
     return {outcome,
@@ -201,7 +203,7 @@ JobOutcome replay_trial(const Candidate& candidate, const TrialCase& trial, cons
     const auto line =
         replay_arguments(resolved.settings, run, site_for(candidate), role, recording);
     prepare_run(resolved, run, line);
-    return settle_outcome(run, start(line, run, trial.name), {"replay", role + " rank 0"});
+    return settle_outcome(run, start(line, run, resolved.settings, trial.name), {"replay", role + " rank 0"});
 }
 
 }  // namespace turbidite

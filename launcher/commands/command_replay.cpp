@@ -9,6 +9,7 @@
 #include "coupler/replay/recorded_start.hpp"
 #include "launcher/case/files/file_names.hpp"
 #include "launcher/commands/command.hpp"
+#include "launcher/job/overdue.hpp"
 #include "launcher/job/play_run.hpp"
 
 namespace turbidite {
@@ -103,7 +104,8 @@ int replay(const ReplayOptions& options) {
     const JobEnd end = run_job({.arguments = line,
                                 .error_log = folder.log("mpirun"),
                                 .request_stop = [](int) { return false; },
-                                .ends_with_children = true});
+                                .overdue = Overdue(folder, resolved.settings),
+                                .had_children = [&] { return played_here(folder); }});
     const JobOutcome outcome = settle_outcome(folder, end, {"replay", side + " rank 0"});
     if (outcome.code != ExitCode::done) fmt::print(stderr, "{}", outcome_text(folder, outcome));
     const bool differs = is_there(folder.root / "differences");

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "launcher/doctor/command_output.hpp"
+#include "launcher/job/overdue.hpp"
 #include "launcher/job/play_run.hpp"
 #include "launcher/job/run_json.hpp"
 #include "launcher/job/temporary_folder.hpp"
@@ -30,7 +31,8 @@ JobEnd start(const PreparedRun& prepared) {
                                 .error_log = prepared.folder.log("mpirun"),
                                 .output_log = prepared.folder.log("output"),
                                 .request_stop = [](int) { return false; },
-                                .ends_with_children = true});
+                                .overdue = Overdue(prepared.folder, prepared.settings),
+                                .had_children = [&] { return played_here(prepared.folder); }});
     if (end.signal != 0) throw Failure(ExitCode::interrupted, "doctor was interrupted");
     return end;
 }

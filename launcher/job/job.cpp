@@ -129,21 +129,19 @@ void end_session(pid_t child, const BlockedSignals& signals) {
 class LeftAlone {
  public:
     /// To be called every second.
-    bool too_long(pid_t child) {
+    bool too_long(pid_t child, const std::function<bool()>& had_children) {
         const auto processes = processes_of_session(child);
         const bool alone = std::none_of(
             processes.begin(), processes.end(),
             [child](const Process& process) { return process.runs && process.id != child; });
         // Not before the first child: mpirun takes a moment to start its ranks.
-        had_children_ = had_children_ || !alone;
-        seconds_ = had_children_ && alone ? seconds_ + 1 : 0;
+        seconds_ = alone && had_children() ? seconds_ + 1 : 0;
         return seconds_ > patience;
     }
 
  private:
     static constexpr int patience = 10;  // [s]
 
-    bool had_children_ = false;
     int seconds_ = 0;
 };
 
@@ -154,14 +152,14 @@ int code_of(int status) {
 JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) {
     JobEnd end;
     LeftAlone left_alone;
-    bool overdue = false;
+    bool left = false;
     const timespec second{1, 0};
     while (!has_ended(child)) {
         // Wakes at a signal at once, else every second for the checks below.
         const int signal = sigtimedwait(&signals.set(), nullptr, &second);
-        overdue = signal < 0 && ((order.overdue && order.overdue()) ||
-                                 (order.ends_with_children && left_alone.too_long(child)));
-        if (overdue) {
+        end.overdue = signal < 0 && order.overdue && order.overdue();
+        left = signal < 0 && order.had_children && left_alone.too_long(child, order.had_children);
+        if (end.overdue || left) {
             end_session(child, signals);
             break;
         }
@@ -179,7 +177,7 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
     int status = 0;
     waitpid(child, &status, 0);
     end.status = code_of(status);
-    end.crashed = WIFSIGNALED(status) && !end.killed && !overdue;
+    end.crashed = WIFSIGNALED(status) && !end.killed && !end.overdue && !left;
     return end;
 }
 

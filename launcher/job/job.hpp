@@ -21,15 +21,17 @@ struct JobOrder {
     /// Asked every second, if there is one. True: the program should have ended, it is to be
     /// killed.
     std::function<bool()> overdue = {};
-    /// Whether the program has nothing to do without its children on this host, like mpirun in a
-    /// job of one host: it is killed when it stays for ten seconds after the last of them.
-    bool ends_with_children = false;
+    /// For a program that has nothing to do without its children on this host, like mpirun in a job
+    /// of one host: whether it has had any. It is killed when it stays for ten seconds after the
+    /// last of them. They may have come and gone between two looks at the processes.
+    std::function<bool()> had_children = {};
 };
 
 struct JobEnd {
     int status = 0;        ///< exit code, or 128 + signal
     int signal = 0;        ///< the first stop signal; 0: none
     bool killed = false;   ///< on request: a second signal came, or it could not be asked
+    bool overdue = false;  ///< JobOrder::overdue has said so
     bool crashed = false;  ///< ended by a signal that was not sent on request
 };
 

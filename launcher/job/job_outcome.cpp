@@ -164,6 +164,8 @@ JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
     if (const auto first = read_first_end(folder.root); first && !end.crashed)
         return of_first_end(folder, *first, ranks);
     if (end.signal != 0) return {signal_code(end.signal), "stopped on request"};
+    if (end.overdue)
+        return {ExitCode::stalled, "mpirun has started no program of the job within limits.start"};
     const std::string word = last_word(folder.log("coupler"));
     if (!word.empty()) return {received_code(end.status), word};
     const std::string first = first_to_end(folder.log("mpirun"), ranks);

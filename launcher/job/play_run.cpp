@@ -3,18 +3,13 @@
 
 #include <fmt/format.h>
 #include <signal.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <optional>
 
-#include "coupler/protocol/run_files.hpp"
-#include "coupler/protocol/start_record.hpp"
 #include "coupler/protocol/whole_file.hpp"
 #include "launcher/job/job.hpp"
-#include "launcher/job/run_json.hpp"
+#include "launcher/job/overdue.hpp"
 #include "launcher/job/terminal.hpp"
 #include "launcher/report/report_script.hpp"
 
@@ -51,50 +46,6 @@ bool has_output(const RunFolder& folder) {
     return std::getline(history, header) && std::getline(history, row);
 }
 
-/// The coupler has written its verdict, or a program has ended before that.
-bool is_over(const RunFolder& folder) {
-    if (read_first_end(folder.root)) return true;
-    const auto record = read_run_json(folder.record());
-    return record.contains("exit_code") && !record["exit_code"].is_null();
-}
-
-/// Programs that have not come to their MPI_Finalize.
-std::vector<StartRecord> staying(const PreparedRun& prepared) {
-    const bool wet = prepared.settings.flag("fluid.enabled");
-    const auto roles = wet ? std::vector{Role::fluid, Role::grains} : std::vector{Role::grains};
-    auto late = not_yet_at(StartStep::end, prepared.folder.root, roles, prepared.settings);
-    char host[256] = {};
-    gethostname(host, sizeof host - 1);
-    std::erase_if(late, [&](const StartRecord& record) {
-        // Signal 0 asks whether the process exists; on other hosts nobody can be asked.
-        return record.host == host && kill(static_cast<pid_t>(record.pid), 0) != 0;
-    });
-    return late;
-}
-
-// When the run is over a program may stay all the same, in an exit handler of the user or a thread
-// of its host, and the others wait for it in MPI_Finalize; and mpirun may stay after a program has
-// crashed (LeftAlone in job.cpp).
-class Overdue {
- public:
-    explicit Overdue(const PreparedRun& prepared)
-        : prepared_(prepared), limit_(prepared.settings.real("limits.stall_hard")) {}
-
-    bool operator()() {
-        if (!over_ && !is_over(prepared_.folder)) return false;
-        if (!over_) over_ = Clock::now();
-        if (std::chrono::duration<double>(Clock::now() - *over_).count() < limit_) return false;
-        fmt::print(stderr, "{}\n", late_end_text(staying(prepared_), limit_));
-        return true;
-    }
-
- private:
-    using Clock = std::chrono::steady_clock;
-    const PreparedRun& prepared_;
-    double limit_;
-    std::optional<Clock::time_point> over_;
-};
-
 }  // namespace
 
 PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const LaunchSite& site) {
@@ -112,7 +63,8 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     const JobEnd end = run_job({.arguments = prepared.line,
                                 .error_log = folder.log("mpirun"),
                                 .request_stop = [&](int s) { return request_stop(folder, s); },
-                                .overdue = Overdue(prepared)});
+                                .overdue = Overdue(folder, prepared.settings),
+                                .had_children = [&] { return played_here(folder); }});
     JobOutcome outcome = settle_outcome(folder, end, prepared.ranks);
     std::fflush(stdout);
     const bool done = outcome.code == ExitCode::done;
