@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -25,6 +26,8 @@ std::array<double, 4> corners_of(const Foam::fvMesh& mesh) {
 }
 
 constexpr std::size_t components = 4;  // of u, and p
+/// Of cells in no state that was read; a run with NaN is not saved.
+constexpr std::array<double, components> unsaved{NAN, NAN, NAN, NAN};
 
 /// A state by its parts.
 struct Parts {
@@ -211,15 +214,18 @@ SavedState part_of(const std::vector<SavedState>& of_ranks, const FluidRank& ran
         own.header = other.header;
         for (std::size_t c = 0; c < other.cells.size(); ++c) {
             const auto place = static_cast<std::size_t>(other.cells[c]);
-            if (values.size() <= place) values.resize(place + 1);
+            if (values.size() <= place) values.resize(place + 1, unsaved);
             std::copy_n(&other.values[components * c], components, values[place].begin());
         }
     }
     own.cells.assign(rank.cells.begin(), rank.cells.end());
     for (const std::int32_t cell : own.cells) {
-        if (static_cast<std::size_t>(cell) >= values.size())
-            throw Failure(ExitCode::bad_input, "the saved fluid states are of another mesh");
-        const auto& value = values[static_cast<std::size_t>(cell)];
+        const auto place = static_cast<std::size_t>(cell);
+        if (place >= values.size() || std::isnan(values[place].front()))
+            throw Failure(ExitCode::bad_input,
+                          "the saved fluid states lack cell " + std::to_string(cell) +
+                              ": they are of another mesh, or one of them is missing");
+        const auto& value = values[place];
         own.values.insert(own.values.end(), value.begin(), value.end());
     }
     own.memory = memory.part(rows, rank.step.memory().size());

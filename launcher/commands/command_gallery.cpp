@@ -27,6 +27,7 @@ struct GalleryOptions {
     std::string out = "runs/gallery";
     bool quick = false;
     bool record = false;
+    bool judge = false;
     bool json = false;
 };
 
@@ -79,6 +80,7 @@ nlohmann::ordered_json read_expected(const fs::path& file) {
     line.insert(line.end(), {"--out", options.out});
     if (options.quick) line.push_back("--quick");
     if (options.record) line.push_back("--record");
+    if (options.judge) line.push_back("--judge");
     if (options.json) line.push_back("--json");
     line.insert(line.end(), options.names.begin(), options.names.end());
     give_standard_input(numbers.dump());
@@ -98,6 +100,8 @@ CommandAction declare_gallery(CLI::App& app) {
     app.add_flag("--record", options->record,
                  "if all numbers hold, write commit, date, time and memory into the file of "
                  "expected numbers");
+    app.add_flag("--judge", options->judge,
+                 "compare what `gallery` has played into --out before, without playing it again");
     app.add_flag("--json", options->json, "print the list for scripts");
     app.add_option("--expected", options->expected,
                    "another file of expected numbers than configs/expected.yaml")

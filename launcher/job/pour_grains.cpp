@@ -14,6 +14,7 @@
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/case_hash.hpp"
 #include "launcher/case/files/run_folder.hpp"
+#include "launcher/case/forecast/run_cost.hpp"
 #include "launcher/case/grains/pouring.hpp"
 #include "launcher/job/resume_run.hpp"
 #include "launcher/job/terminal.hpp"
@@ -114,7 +115,7 @@ bool is_at_rest(const fs::path& history, double tolerance) {
 fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
     std::vector<std::string> values = resolved.overrides;
     for (std::string& change : pouring_changes(resolved)) values.push_back(std::move(change));
-    const ResolvedCase pouring = load_case(resolved.file, values);
+    ResolvedCase pouring = load_case(resolved.file, values);
     // By what the pouring depends on: another run of the same packing finds it.
     const RunFolder folder{fs::absolute(cache_folder() / case_hash(pouring.yaml))};
     const double tolerance = pouring.settings.real("contact.tolerance");
@@ -125,6 +126,9 @@ fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
     }
     fmt::print("Pouring {} grains, in {}\n", pouring.population.size(), folder.root.string());
     std::fflush(stdout);
+    const std::int64_t ranks = best_grains_ranks(pouring.population.size());
+    values.push_back(fmt::format("grains.ranks={}", ranks));
+    pouring = load_case(resolved.file, values);
     fs::create_directories(folder.root.parent_path());
     const WithoutReport without;
     while (!is_at_rest(folder.history(), tolerance)) {

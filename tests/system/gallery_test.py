@@ -54,8 +54,10 @@ class Gallery(unittest.TestCase):
     def test_the_list_names_what_is_recorded(self):
         listed = self.gallery()
         self.assertEqual(listed.returncode, 0, listed.stderr)
-        self.assertRegex(listed.stdout, r'\nsilo +not recorded')
         self.assertRegex(listed.stdout, r'\nquickstart +[0-9a-f]{7} 20\d\d-')
+        other = self.folder / 'expected.yaml'
+        other.write_text('silo:\n  full:\n')
+        self.assertRegex(self.gallery('--expected', str(other)).stdout, r'\nsilo +not recorded')
 
     def test_what_cases_say_about_rest_is_expected_of_them(self):
         entries, rows = self.entries(), dict(re.findall(r'^\| `([\w-]+)` \|(.*)$', (self.configs / 'README.md').read_text(), re.M))
@@ -85,6 +87,19 @@ class Gallery(unittest.TestCase):
         self.assertEqual(played.returncode, 1, played.stdout + played.stderr)
         self.assertIn('  holds   at(mean_velocity_y, 1.5) = -1.3', played.stdout)
         self.assertIn('  FAILS   end_height = 6.', played.stdout)
+
+        before = (self.folder / 'runs/gallery/quickstart-quick/run.json').stat().st_mtime_ns
+        wrong.write_text(wrong.read_text().replace('above: 7', 'above: 6'))
+        again = self.gallery('--quick', 'quickstart', '--expected', str(wrong), '--judge')
+        self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+        self.assertIn('  holds   end_height = 6.', again.stdout)
+        self.assertIn(played.stdout.splitlines()[-1].split('; ')[1], again.stdout)  # what it took
+        self.assertEqual((self.folder / 'runs/gallery/quickstart-quick/run.json').stat().st_mtime_ns, before)
+
+    def test_what_was_not_played_is_not_compared(self):
+        answer = self.gallery('--quick', 'quickstart', '--judge')
+        self.assertEqual(answer.returncode, 2, answer.stdout)
+        self.assertIn('no run of the gallery ended in runs/gallery/quickstart-quick', answer.stderr)
 
     def test_faults_of_the_file_are_named(self):
         wrong = self.folder / 'expected.yaml'

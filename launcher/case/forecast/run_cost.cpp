@@ -188,6 +188,12 @@ std::string ranks_warning(const ResolvedCase& resolved, double cores) {
         cores);
 }
 
+std::int64_t best_grains_ranks(std::size_t spheres, double cores) {
+    // Each with as many spheres as two ranks need to pay.
+    const double paying = 2.0 * static_cast<double>(spheres) / grains_for_ranks;
+    return static_cast<std::int64_t>(std::max(1.0, std::floor(std::min(cores, paying))));
+}
+
 std::string grains_ranks_warning(const ResolvedCase& resolved, double cores) {
     const Settings& settings = resolved.settings;
     const auto ranks = static_cast<double>(settings.integer("grains.ranks"));

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""main.py PROGRAM CONFIGS EXPECTED [--quick] [--record] [--json] [--out DIR] [NAME...]: `turbidite gallery`.
+"""main.py PROGRAM CONFIGS EXPECTED [--quick] [--record] [--judge] [--json] [--out DIR] [NAME...]: `turbidite gallery`.
 
 Standard input is the document EXPECTED as JSON. Exit code: 0 all holds, 1 some number does not, 2 bad usage or a fault in
 the document; that of the program if it fails.
@@ -33,6 +33,10 @@ class Gallery:
         if not path.is_file():
             raise entries.Wrong(f'{name}: there is no case or study {path}')
         return path
+
+    def folder(self, name):
+        """Of the run, or of the study's runs."""
+        return Path(self.options.out) / (name + ('-quick' if self.form == 'quick' else ''))
 
     def is_study(self, name):
         return re.search(r'^(parts|case):', self.file(name).read_text(), re.MULTILINE) is not None
@@ -104,11 +108,10 @@ def measured(run, what):
 def play(gallery, name):
     """Exit code."""
     form, options = gallery.form_of(name), gallery.options
-    folder = Path(options.out) / (name + ('-quick' if gallery.form == 'quick' else ''))
-    line = playing.command(options.program, gallery.file(name), gallery.is_study(name), form, folder)
-    print(playing.shown(line), flush=True)
-    commit = records.commit(gallery.configs)  # of what is played: by its end there may be another
-    played = playing.play(line)
+    folder = gallery.folder(name)
+    played = records.load_played(folder) if options.judge else play_now(gallery, name, form, folder)
+    if played is None:
+        raise entries.Wrong(f'--judge compares what was played before, and no run of the gallery ended in {folder}.')
     if played.code != 0:
         print(f'{name}: it did not end as it should: exit code {played.code}', file=sys.stderr)
         return played.code
@@ -116,24 +119,33 @@ def play(gallery, name):
     print(f'{name}: {len(form.expected) - failed} of {len(form.expected)} numbers hold; '
           f'{played.processor:.0f} s of processor time, {played.memory:.0f} MB in its largest program')
     if options.record and not failed:
-        record(gallery, name, commit, played)
+        record(gallery, name, played)
     return 1 if failed else 0
 
 
-def record(gallery, name, commit, played):
+def play_now(gallery, name, form, folder):
+    line = playing.command(gallery.options.program, gallery.file(name), gallery.is_study(name), form, folder)
+    print(playing.shown(line), flush=True)
+    # Taken first: by the end of the run there may be another commit.
+    played = playing.play(line, records.source(gallery.configs, gallery.options.expected))
+    records.save_played(folder, played)
+    return played
+
+
+def record(gallery, name, played):
+    require_commit(played.source)
     file = Path(gallery.options.expected)
-    recorded = {'commit': commit, 'date': records.today(), 'processor': played.processor, 'memory': played.memory}
-    file.write_text(records.with_record(file.read_text(), name, gallery.form, recorded))
+    file.write_text(records.with_record(file.read_text(), name, gallery.form, played))
     print(f'{name}: recorded in {file}')
 
 
-def require_commit(gallery):
+def require_commit(source):
     """A record names the commit that was played."""
-    if records.commit(gallery.configs) is None:
+    if source.commit is None:
         raise entries.Wrong('--record names the commit that was played: it needs a checkout with git.')
-    changed = records.changed(gallery.configs, Path(gallery.options.expected).name)
-    if changed:
-        raise entries.Wrong(f'--record names the commit that was played, and {", ".join(changed[:3])} is not committed.')
+    if source.changed:
+        raise entries.Wrong(f'--record names the commit that was played, and {", ".join(source.changed[:3])} '
+                            'is not committed.')
 
 
 def parsed(arguments):
@@ -141,7 +153,7 @@ def parsed(arguments):
     for name in ('program', 'configs', 'expected'):
         parser.add_argument(name)
     parser.add_argument('--out')
-    for flag in ('--quick', '--record', '--json'):
+    for flag in ('--quick', '--record', '--judge', '--json'):
         parser.add_argument(flag, action='store_true')
     parser.add_argument('names', nargs='*')
     return parser.parse_intermixed_args(arguments)
@@ -155,8 +167,8 @@ def act(options, tree):
         list_all(gallery)
     for name in options.names:
         gallery.form_of(name)
-    if options.record:
-        require_commit(gallery)
+    if options.record and not options.judge:
+        require_commit(records.source(gallery.configs, options.expected))
     codes = [play(gallery, name) for name in options.names]
     return next((code for code in sorted(codes, reverse=True) if code), 0)
 

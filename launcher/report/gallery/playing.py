@@ -3,14 +3,8 @@
 import os
 import shlex
 import subprocess
-from dataclasses import dataclass
 
-
-@dataclass
-class Played:
-    code: int          # of the program
-    processor: float   # s, of all programs of the job together
-    memory: float      # MB, of the largest of them
+from records import Played
 
 
 def command(program, file, is_study, form, out):
@@ -23,7 +17,7 @@ def shown(line):
     return shlex.join(['turbidite', *line[1:]])
 
 
-def play(line):
+def play(line, source):
     """Without a report, which would take part of the time. Ctrl-C reaches the program too, which then ends orderly."""
     process = subprocess.Popen(line, stdin=subprocess.DEVNULL, env={**os.environ, 'TURBIDITE_REPORT': 'off'})
     while True:
@@ -33,4 +27,4 @@ def play(line):
         except KeyboardInterrupt:
             pass
     process.returncode = os.waitstatus_to_exitcode(status)
-    return Played(process.returncode, used.ru_utime + used.ru_stime, used.ru_maxrss / 1000.0)
+    return Played(source, process.returncode, used.ru_utime + used.ru_stime, used.ru_maxrss / 1000.0)

@@ -1,10 +1,49 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""When and with which commit the expected numbers of a form last held, one line of configs/expected.yaml."""
+"""When and with which commit the expected numbers of a form last held, one line of configs/expected.yaml; and what a run
+of the gallery took, in its folder, so that it can be compared again."""
 import datetime
+import json
 import re
 import subprocess
+from dataclasses import asdict, dataclass
+from pathlib import Path
 
 OLD = 100  # commits
+PLAYED = 'gallery.json'
+
+
+@dataclass
+class Source:
+    """What is played."""
+    commit: str    # None: not a checkout
+    changed: list  # files that differ from the commit
+    date: str
+
+
+@dataclass
+class Played:
+    source: Source
+    code: int          # exit code
+    processor: float   # s, of all programs of the job together
+    memory: float      # MB, of the largest of them
+
+
+def source(configs, expected):
+    return Source(commit(configs), changed(configs, Path(expected).name), datetime.date.today().isoformat())
+
+
+def save_played(folder, played):
+    if folder.is_dir():  # else it was refused before it began
+        (folder / PLAYED).write_text(json.dumps(asdict(played)) + '\n')
+
+
+def load_played(folder):
+    """None where the gallery has not played to an end."""
+    file = folder / PLAYED
+    if not file.is_file():
+        return None
+    read = json.loads(file.read_text())
+    return Played(Source(**read.pop('source')), **read)
 
 
 def git(folder, *words):
@@ -43,20 +82,16 @@ def told(folder, recorded):
     return f'{recorded["commit"][:7]} {recorded["date"]}{old}'
 
 
-def today():
-    return datetime.date.today().isoformat()
+def line(played):
+    return (f'    recorded: {{commit: "{played.source.commit}", date: {played.source.date}, '
+            f'processor: {played.processor:.0f}, memory: {played.memory:.0f}}}')
 
 
-def line(recorded):
-    return (f'    recorded: {{commit: "{recorded["commit"]}", date: {recorded["date"]}, '
-            f'processor: {recorded["processor"]:.0f}, memory: {recorded["memory"]:.0f}}}')
-
-
-def with_record(text, name, form, recorded):
+def with_record(text, name, form, played):
     """The document with the `recorded` line of a form replaced, or added as its last. Entries begin in the first column,
     forms two further to the right, their keys four."""
     lines = text.splitlines()
     begin = lines.index(f'  {form}:', lines.index(f'{name}:')) + 1
     end = next((k for k in range(begin, len(lines)) if not lines[k].startswith('    ')), len(lines))
     kept = [text for text in lines[begin:end] if not text.startswith('    recorded:')]
-    return '\n'.join([*lines[:begin], *kept, line(recorded), *lines[end:]]) + '\n'
+    return '\n'.join([*lines[:begin], *kept, line(played), *lines[end:]]) + '\n'

@@ -275,6 +275,12 @@ TEST_F(SpaceCase, PouredGrainsHaveStandInsAndARunOfTheirOwn) {
     EXPECT_EQ(s.text("domain.front"), "cyclic");  // as deep as the box
     EXPECT_EQ(s.real("run.size_x"), 6.0);
     EXPECT_EQ(pouring.population.size(), 100u);
+    // The packing does not depend on who plays the run, so that it is poured once.
+    std::vector<std::string> on_ranks = poured;
+    on_ranks.insert(on_ranks.end(), {"grains.adapter=standalone-nscd", "grains.ranks=2"});
+    const std::vector<std::string> again = pouring_changes(load("", on_ranks));
+    on_ranks.insert(on_ranks.end(), again.begin(), again.end());
+    EXPECT_EQ(load("", on_ranks).yaml, pouring.yaml);
     std::vector<std::string> full = poured;
     full.push_back("grains.count=500");  // 0.81 of the region
     EXPECT_SAYS(refusal("", full), "poured packings fill 0.66 at most");

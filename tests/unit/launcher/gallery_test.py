@@ -257,13 +257,31 @@ class Records(Played):
     def test_the_commit_is_that_of_the_beginning(self):
         begin = records.commit(self.folder)
 
-        def play(line):
+        def play(line, source):
             self.commit('--allow-empty')
-            return playing.Played(subprocess.run(line).returncode, 1.0, 2.0)
+            return records.Played(source, subprocess.run(line).returncode, 1.0, 2.0)
         with mock.patch.object(playing, 'play', play):
             self.assertEqual(self.act('--record', 'falling')[0], 0)
         self.assertNotEqual(records.commit(self.folder), begin)
         self.assertIn(begin, (self.folder / 'configs/expected.yaml').read_text())
+
+    def test_a_run_is_judged_again_and_recorded_as_it_was_played(self):
+        broken = {'falling': {'full': {'expected': {'end_height': {'above': 3}}}}}
+        self.assertEqual(self.act('falling', tree=broken)[0], 1)
+        played = records.load_played(self.folder / 'out/falling')
+        self.commit('--allow-empty')
+        with mock.patch.object(playing, 'play', side_effect=AssertionError):
+            self.assertEqual(self.act('--judge', '--record', 'falling')[0], 0)
+        self.assertIn(f'{{commit: "{played.source.commit}"', (self.folder / 'configs/expected.yaml').read_text())
+        self.assertNotEqual(played.source.commit, records.commit(self.folder))
+
+    def test_what_was_not_committed_when_it_was_played_is_not_recorded_later(self):
+        self.write('configs/falling.yaml', 'time:\n  step: 0.2\n')
+        self.act('falling')
+        self.commit('-a')
+        code, told = self.act('--judge', '--record', 'falling')
+        self.assertEqual(code, 2)
+        self.assertIn('configs/falling.yaml is not committed', told)
 
     def test_commits_of_elsewhere_are_told(self):
         recorded = {'commit': '0123456789', 'date': '2026-01-02', 'processor': 3, 'memory': 4}
@@ -280,8 +298,8 @@ class Records(Played):
 class Playing(unittest.TestCase):
     def test_what_a_program_took_is_its_own(self):
         """A large one before does not count."""
-        large = playing.play([sys.executable, '-c', 'x = bytearray(200_000_000)'])
-        small = playing.play([sys.executable, '-c', 'import sys\nfor k in range(3_000_000): pass\nsys.exit(3)'])
+        large = playing.play([sys.executable, '-c', 'x = bytearray(200_000_000)'], None)
+        small = playing.play([sys.executable, '-c', 'import sys\nfor k in range(3_000_000): pass\nsys.exit(3)'], None)
         self.assertEqual((large.code, small.code), (0, 3))
         self.assertGreater(large.memory, 200.0)
         self.assertLess(small.memory, 100.0)
