@@ -102,6 +102,9 @@ class SecondOrder {
     /// Is there an earlier window?
     bool goes_on() const { return goes_on_; }
 
+    /// Gives back what only `transport` needs; it makes the room again.
+    void release_work() { working_.clear(), part_start_.clear(); }
+
     /// The velocity was changed from outside: begins anew.
     void forget() { goes_on_ = false; }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace turbidite {
 namespace {
@@ -107,7 +108,7 @@ bool CoupledStep::correct_pressure(RigidGrains& grains, const CoupledLimits& lim
 }
 
 VelocityRows CoupledStep::unconstrained() {
-    VelocityRows s = transported_;
+    VelocityRows s = std::exchange(transported_, {});
     add_impulses(1.0, s);
     return s;
 }

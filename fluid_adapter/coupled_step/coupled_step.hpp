@@ -38,7 +38,10 @@ struct CoupledReport {
 
 class CoupledStep {
  public:
-    explicit CoupledStep(BoxStep& step) : step_(step), box_(step.operators()), pressure_(step) {}
+    explicit CoupledStep(BoxStep& step)
+        : step_(step), box_(step.operators()), pressure_(step, work_), viscosity_(work_) {}
+    CoupledStep(const CoupledStep&) = delete;  // both refer to its arrays
+    CoupledStep& operator=(const CoupledStep&) = delete;
 
     /// Before transport over dt [s], which is to add what it returns.
     ImpulsesOfWindow& begin(double dt) { return viscosity_.begin(dt_ = dt, step_.viscosity()); }
@@ -48,13 +51,14 @@ class CoupledStep {
 
     /// Keeps s of the next window.
     void keep_unconstrained(bool keep) { keep_ = keep; }
+    bool keeps_unconstrained() const { return keep_; }
 
     /// Once per window, before the first correct.
     void place_grains(const Constraint& constraint);
 
     CoupledReport correct(RigidGrains& grains, const CoupledLimits& limits);
 
-    /// s of the window with its last f and p, if kept [m/s].
+    /// s of the window with its last f and p, if kept [m/s]: once, since it is given away.
     VelocityRows unconstrained();
 
     /// Ends the window: e becomes that of p.
@@ -75,6 +79,7 @@ class CoupledStep {
 
     BoxStep& step_;
     BoxOperators box_;
+    CorrectionWork work_;
     RigidPressure pressure_;
     RigidViscosity viscosity_;
     VelocityRows transported_;

@@ -18,6 +18,13 @@ struct RigidChange {
     GrainChange grains;
 };
 
+/// Arrays over the rank's cells that pressure and viscosity use one after the other: neither needs
+/// anything of them from one of its corrections to the next.
+struct CorrectionWork {
+    RigidChange change;
+    VelocityRows images;
+};
+
 class RigidGrains {
  public:
     /// `constraint`: of this window, imposed on its velocity; kept by reference.

@@ -10,8 +10,8 @@ namespace turbidite {
 void RigidPressure::begin(const Constraint& constraint, double dt, double k) {
     dt_ = dt;
     kept_ = k;
-    residual_.resize(step_.cells());
-    rigid_.u.resize(step_.layers().components(), step_.cells());
+    work_.images.resize(step_.layers().components(), step_.cells());
+    rigid().u.resize(step_.layers().components(), step_.cells());
     // w of box_operators.hpp, 0 in covered cells: faces between two carry the rigid motion alone
     outside_.assign(step_.cells(), 1.0);
     constraint.clear_covered(outside_.data());
@@ -33,7 +33,7 @@ ResidualSquare RigidPressure::find_residual(BoxOperators& box, RigidGrains& grai
     const PendingChange change = grains.take_pending();  // made as the velocity is read
     ResidualSquare square;
     square.sum = box.flux_residual(dt_, step_.pressure(), grains.velocity(), excess(), change,
-                                   residual_.data());
+                                   residual().data());
     square.cells = box.volume();
     grains.sum_over_ranks(square.data(), ResidualSquare::count);
     return square;
@@ -43,19 +43,18 @@ ResidualSquare RigidPressure::find_residual(BoxOperators& box, RigidGrains& grai
 double RigidPressure::precondition(const RigidGrains& grains) {
     double* z = step_.pressure_solve().values();
     const BoxLayers& layers = step_.layers();
+    const std::vector<double>& r = residual();
     double product = 0.0;
     step_.pressure_solve().solve(
         [&](int j) {
             // The solver inverts -laplacian, so z of r/dt is -(1/dt) laplacian^-1 r.
-            for (std::size_t c = layers.row(j, 0); c < layers.row(j + 1, 0); ++c)
-                z[c] = residual_[c] / dt_;
+            for (std::size_t c = layers.row(j, 0); c < layers.row(j + 1, 0); ++c) z[c] = r[c] / dt_;
         },
         [&](int j) {
             for (int k = 0; k < layers.nz; ++k)
                 // Weighted by volumes, as all products (box_operators.hpp)
-                product +=
-                    layers.heights.relative(j) *
-                    dot_row(layers.nx, residual_.data() + layers.row(j, k), z + layers.row(j, k));
+                product += layers.heights.relative(j) *
+                           dot_row(layers.nx, r.data() + layers.row(j, k), z + layers.row(j, k));
         });
     grains.sum_over_ranks(&product, 1);
     return product;
@@ -69,24 +68,23 @@ void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, boo
     rz = precondition(grains);
     const double* z = step_.pressure_solve().values();
     if (limit.most > 1) {
-        later_.resize(residual_.size());
-        box.direction(dt_, z, first ? 0.0 : rz / last, later_.data(), rigid_.u.pointers());
+        box.direction(dt_, z, first ? 0.0 : rz / last, later().data(), rigid().u.pointers());
         // A copy, since the next preconditioning overwrites z.
-        direction_ = later_.data();
+        direction_ = later().data();
     } else {
-        box.gradient(dt_, z, rigid_.u.pointers());
+        box.gradient(dt_, z, rigid().u.pointers());
         direction_ = z;
     }
     // Anew for each direction; carrying W(-dt G d) along as W(-dt G z) + beta W(-dt G d) would need
     // an array more per component.
-    grains.make_rigid(rigid_, limit.slip_reduction);
+    grains.make_rigid(rigid(), limit.slip_reduction);
 }
 
 /// A d, kept if there may be another iteration.
 ImageProducts RigidPressure::apply(BoxOperators& box, const RigidGrains& grains, bool keep) {
-    if (keep) image_.resize(residual_.size());
-    ImageProducts products = box.flux_image(dt_, outside_.data(), direction_, rigid_.u.pointers(),
-                                            residual_.data(), keep ? image_.data() : nullptr);
+    if (keep) image_.resize(residual().size());
+    ImageProducts products = box.flux_image(dt_, outside_.data(), direction_, rigid().u.pointers(),
+                                            residual().data(), keep ? image_.data() : nullptr);
     grains.sum_over_ranks(products.data(), ImageProducts::count);
     return products;
 }
@@ -94,10 +92,11 @@ ImageProducts RigidPressure::apply(BoxOperators& box, const RigidGrains& grains,
 /// p += alpha d, u += alpha W(-dt G d), r -= alpha A d.
 void RigidPressure::move(RigidGrains& grains, double alpha, bool again) {
     double* p = step_.pressure();
+    std::vector<double>& r = residual();
     // u changes by what is rigid, so every iterate is rigid and keeps the momentum.
-    for (std::size_t c = 0; c < residual_.size(); ++c) p[c] += alpha * direction_[c];
-    grains.add(rigid_, alpha);
-    for (std::size_t c = 0; again && c < residual_.size(); ++c) residual_[c] -= alpha * image_[c];
+    for (std::size_t c = 0; c < r.size(); ++c) p[c] += alpha * direction_[c];
+    grains.add(rigid(), alpha);
+    for (std::size_t c = 0; again && c < r.size(); ++c) r[c] -= alpha * image_[c];
 }
 
 }  // namespace turbidite

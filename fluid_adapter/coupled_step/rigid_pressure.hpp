@@ -18,7 +18,9 @@ namespace turbidite {
 class RigidPressure {
  public:
     /// From now on the step keeps its pressure.
-    explicit RigidPressure(BoxStep& step) : step_(step) { step.keep_pressure(); }
+    RigidPressure(BoxStep& step, CorrectionWork& work) : step_(step), work_(work) {
+        step.keep_pressure();
+    }
 
     /// Takes the grains' places in a window of length dt [s]; k is the part of the excess that
     /// remains of the last window's.
@@ -37,13 +39,16 @@ class RigidPressure {
                           const IterationLimit& limit);
     ImageProducts apply(BoxOperators& box, const RigidGrains& grains, bool keep);
     void move(RigidGrains& grains, double alpha, bool again);
+    std::vector<double>& residual() { return work_.images[0]; }
+    std::vector<double>& later() { return work_.images[1]; }
+    RigidChange& rigid() { return work_.change; }  // W(-dt G d)
     ExcessFlux excess() { return {step_.excess_pointers(), kept_, outside_.data()}; }
 
     BoxStep& step_;
+    CorrectionWork& work_;
     double dt_ = 0.0, kept_ = 1.0;
-    std::vector<double> outside_, residual_, later_, image_;
-    const double* direction_ = nullptr;  // z itself if there is but one iteration, or later_
-    RigidChange rigid_;                  // W(-dt G d)
+    std::vector<double> outside_, image_;
+    const double* direction_ = nullptr;  // z itself if there is but one iteration, or later()
 };
 
 }  // namespace turbidite

@@ -45,7 +45,7 @@ IterationResult RigidViscosity::correct(BoxOperators& box, RigidGrains& grains,
 /// r = dt nu L u - f; returns |r|^2.
 ResidualSquare RigidViscosity::find_residual(BoxOperators& box, RigidGrains& grains) {
     residual_.resize(box.components(), box.size());
-    rigid_residual_.u.resize(box.components(), box.size());
+    rigid_residual().u.resize(box.components(), box.size());
     // Includes what is pending: unlike pressure this does not make the change as it reads.
     const VelocityPointers u = grains.velocity();
     const VelocityRows& f = impulse();
@@ -53,7 +53,7 @@ ResidualSquare RigidViscosity::find_residual(BoxOperators& box, RigidGrains& gra
     for (int axis = 0; axis < u.size(); ++axis) {
         const ViscousSums one =
             box.viscous_residual(per_laplacian_, axis, u[axis], f[axis].data(),
-                                 residual_[axis].data(), rigid_residual_.u[axis].data());
+                                 residual_[axis].data(), rigid_residual().u[axis].data());
         square.sum += one.square;
         sum_residual_[axis] = one.sum;
     }
@@ -66,38 +66,38 @@ ResidualSquare RigidViscosity::find_residual(BoxOperators& box, RigidGrains& gra
 void RigidViscosity::choose_direction(const BoxOperators& box, RigidGrains& grains, bool first,
                                       double& rz, const IterationLimit& limit) {
     // The first time find_residual has left a copy of r there.
-    if (!first) rigid_residual_.u = residual_;
-    grains.make_rigid(rigid_residual_, limit.slip_reduction);
+    if (!first) rigid_residual().u = residual_;
+    grains.make_rigid(rigid_residual(), limit.slip_reduction);
     if (first) {
         // d = r, so W d = W r; r.z comes with the image (ImageProducts::step).
-        std::swap(rigid_direction_, rigid_residual_);
+        std::swap(rigid_direction_, rigid_residual());
         direction_ = nullptr;
         return;
     }
     const double last = rz;
     rz = 0.0;
     for (int axis = 0; axis < residual_.size(); ++axis)
-        rz += box.dot(residual_[axis], rigid_residual_.u[axis]);
+        rz += box.dot(residual_[axis], rigid_residual().u[axis]);
     grains.sum_over_ranks(&rz, 1);
     // r.W r over that of the last iteration: A = I - dt nu L W is symmetric in the product a.W b.
     const double beta = rz / last;
     for (int axis = 0; axis < residual_.size(); ++axis)
         for (std::size_t c = 0; c < residual_[axis].size(); ++c)
             later_[axis][c] = beta * later_[axis][c] + residual_[axis][c];
-    grains.combine(rigid_direction_, beta, rigid_residual_);
+    grains.combine(rigid_direction_, beta, rigid_residual());
     direction_ = &later_;
 }
 
 /// A d = d - dt nu L W d, kept if there may be another iteration.
 ImageProducts RigidViscosity::apply(BoxOperators& box, const RigidGrains& grains, bool keep) {
-    if (keep) image_.resize(box.components(), box.size());
+    if (keep) image().resize(box.components(), box.size());
     const VelocityRows& d = direction_ ? *direction_ : residual_;
     ImageProducts sum;
     for (int axis = 0; axis < d.size(); ++axis) {
         // `direction` is A d . W d: the curvature in that product, without another solve.
         const ImageProducts one =
             box.viscous_image(per_laplacian_, axis, d[axis].data(), rigid_direction_.u[axis].data(),
-                              residual_[axis].data(), keep ? image_[axis].data() : nullptr);
+                              residual_[axis].data(), keep ? image()[axis].data() : nullptr);
         sum.direction += one.direction;
         sum.residual += one.residual;
         sum.itself += one.itself;
@@ -124,9 +124,10 @@ void RigidViscosity::move(RigidGrains& grains, double alpha, bool again) {
     summed_ = false;
     grains.add(rigid_direction_, alpha);
     if (!direction_) later_ = residual_;  // the first direction
-    for (int axis = 0; axis < image_.size(); ++axis)
-        for (std::size_t c = 0; c < image_[axis].size(); ++c)
-            residual_[axis][c] -= alpha * image_[axis][c];
+    const VelocityRows& image = this->image();
+    for (int axis = 0; axis < image.size(); ++axis)
+        for (std::size_t c = 0; c < image[axis].size(); ++c)
+            residual_[axis][c] -= alpha * image[axis][c];
 }
 
 }  // namespace turbidite

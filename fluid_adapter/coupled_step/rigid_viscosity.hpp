@@ -18,6 +18,8 @@ namespace turbidite {
 
 class RigidViscosity {
  public:
+    explicit RigidViscosity(CorrectionWork& work) : work_(work) {}
+
     /// Begins a window of length dt [s] in a fluid of viscosity nu [m2/s]. Its f is to be set by
     /// the caller: that of the velocity it begins with.
     ImpulsesOfWindow& begin(double dt, double nu);
@@ -40,15 +42,19 @@ class RigidViscosity {
     void move(RigidGrains& grains, double alpha, bool again);
     void move_only(RigidGrains& grains, double alpha);
 
+    VelocityRows& image() { return work_.images; }
+    RigidChange& rigid_residual() { return work_.change; }
+
+    CorrectionWork& work_;
     double per_laplacian_ = 0.0;  // nu dt [m2]
     ImpulsesOfWindow window_;
     bool summed_ = true;    // the sum of f is known
     double pending_ = 0.0;  // f lacks this share of r
-    VelocityRows residual_, image_;
+    VelocityRows residual_;
     BoxForce sum_residual_{};                  // over the rank's cells, before the first iteration
     VelocityRows later_;                       // d of all iterations but the first, where it is r
     const VelocityRows* direction_ = nullptr;  // null: r
-    RigidChange rigid_residual_, rigid_direction_;
+    RigidChange rigid_direction_;
 };
 
 }  // namespace turbidite

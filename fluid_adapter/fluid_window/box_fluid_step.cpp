@@ -131,6 +131,8 @@ std::vector<BoundaryForce> BoxFluidStep::transport_in_first_order(int parts) {
 
 BoundaryForce BoxFluidStep::diffuse() {
     if (coupled_) {
+        // s in the place of the arrays of transport: a window that keeps it needs no more memory.
+        if (coupled_->keeps_unconstrained()) second_order_.release_work();
         // f, explicit, has come with transport, and `correct` makes it implicit.
         coupled_->keep_transported();
         return {};

@@ -203,7 +203,8 @@ JobOutcome replay_trial(const Candidate& candidate, const TrialCase& trial, cons
     const auto line =
         replay_arguments(resolved.settings, run, site_for(candidate), role, recording);
     prepare_run(resolved, run, line);
-    return settle_outcome(run, start(line, run, resolved.settings, trial.name), {"replay", role + " rank 0"});
+    return settle_outcome(run, start(line, run, resolved.settings, trial.name),
+                          {"replay", role + " rank 0"});
 }
 
 }  // namespace turbidite

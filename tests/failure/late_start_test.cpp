@@ -77,9 +77,9 @@ TEST_F(LateStart, AllRanksThatDoNotJoinAreNamed) {
 TEST_F(LateStart, AnMpirunThatStartsNothingIsKilled) {
     scratch.write("mpirun", "#!/bin/sh\nexec sleep 1000\n");
     std::filesystem::permissions(scratch.path() / "mpirun", std::filesystem::perms::owner_all);
-    const Answer answer = shell("PATH=$PWD:$PATH timeout -s KILL 60 " TURBIDITE_PROGRAM
-                                " run small.yaml" +
-                                into_run_folder() + " --set limits.start=4");
+    const Answer answer =
+        shell("PATH=$PWD:$PATH timeout -s KILL 60 " TURBIDITE_PROGRAM " run small.yaml" +
+              into_run_folder() + " --set limits.start=4");
     EXPECT_EQ(answer.code, 5) << answer.out << answer.err;
     EXPECT_SAYS(answer.err, "mpirun has started no program of the job within limits.start");
     EXPECT_EQ(record().at("exit_code"), 5);

@@ -45,7 +45,8 @@ class Correction : public testing::TestWithParam<TankSides> {
 TEST_P(Correction, PressureEndsSolenoidalAndRigid) {
     for (const double density_ratio : {1.5, 0.4}) {
         Tank tank(GetParam(), 0.01, density_ratio);
-        RigidPressure pressure(tank.step);
+        CorrectionWork work;
+        RigidPressure pressure(tank.step, work);
         RigidGrains grains = tank.rigid();
         pressure.begin(tank.constraint, time_step, 1.0);
         const Planar momentum = tank.momentum();
@@ -74,7 +75,8 @@ TEST_P(Correction, PressureEndsSolenoidalAndRigid) {
 
 TEST_P(Correction, PressureGoesOnWhereItStopped) {
     Tank tank(GetParam());
-    RigidPressure pressure(tank.step);
+    CorrectionWork work;
+    RigidPressure pressure(tank.step, work);
     RigidGrains grains = tank.rigid();
     pressure.begin(tank.constraint, time_step, 1.0);
     const IterationResult some = pressure.correct(tank.box, grains, {3, 1e-6});
@@ -88,7 +90,8 @@ TEST_P(Correction, WithoutGrainsOneIterationIsExact) {
     Tank tank(GetParam());
     tank.grains.clear();
     tank.place_grains();
-    RigidPressure pressure(tank.step);
+    CorrectionWork work;
+    RigidPressure pressure(tank.step, work);
     RigidGrains grains = tank.rigid();
     pressure.begin(tank.constraint, time_step, 1.0);
     const IterationResult result = pressure.correct(tank.box, grains, {1, 1e-6});
@@ -105,7 +108,8 @@ TEST_P(Correction, ViscosityIsImplicit) {
         s.resize(2, tank.size());
         for (int axis = 0; axis < 2; ++axis)
             std::copy_n(tank.step.velocity(axis), tank.size(), s[axis].begin());
-        RigidViscosity implicit;
+        CorrectionWork work;
+        RigidViscosity implicit(work);
         implicit.begin(time_step, viscosity).f.resize(2, tank.size());  // none yet
         RigidGrains grains = tank.rigid();
         const IterationLimit limit{400, 1e-4 * viscosity};  // of accelerations of some 500 nu
@@ -146,7 +150,8 @@ TEST_P(Correction, ViscosityIsImplicit) {
 
 TEST_P(Correction, OneIterationAlreadyTakesMostOfTheDivergence) {
     Tank tank(GetParam());
-    RigidPressure pressure(tank.step);
+    CorrectionWork work;
+    RigidPressure pressure(tank.step, work);
     RigidGrains grains = tank.rigid();
     pressure.begin(tank.constraint, time_step, 1.0);
     const double first = pressure.correct(tank.box, grains, {0, 0.0}).residual;
