@@ -45,7 +45,7 @@ install(FILES README.md SECURITY.md CITATION.cff DESTINATION share/doc/turbidite
 # The site of `turbidite docs`; programs are built without mkdocs too.
 find_program(MKDOCS mkdocs)
 if(MKDOCS)
-    file(GLOB pages CONFIGURE_DEPENDS *.md docs/*.md docs/decisions/*.md docs/images/*.png docs/images/*/*.png configs/*.md)
+    file(GLOB pages CONFIGURE_DEPENDS *.md docs/*.md docs/*/*.md docs/images/*.png docs/images/*/*.png configs/*.md)
     set(site ${PROJECT_BINARY_DIR}/site)
     add_custom_command(OUTPUT ${site}/index.html
         COMMAND /usr/bin/python3 -B ${PROJECT_SOURCE_DIR}/launcher/site/site.py build ${PROJECT_SOURCE_DIR} ${site}

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the documentation names is in the tree.
 
-Links of all pages lead to a file and a heading; pages that sources name exist. In the README, the decisions and the pages
-folders, running and window every name in back-quotes exists: files, folders, keys of a case, tests, and every word of the rest
+Links of all pages lead to a file and a heading; pages that sources name exist. In the README, the decisions, the theory and
+the pages folders, running and window every name in back-quotes exists: files, folders, keys of a case, tests, and every word of the rest
 somewhere in the sources. Folders under another licence than most are in the licences of docs/folders.md.
 usage: documented_names_test.py PROJECT_FOLDER
 """
@@ -107,7 +107,7 @@ class Names(unittest.TestCase):
         tree = Tree(self.folder)
         docs = self.folder / "docs"
         others = (self.folder / "README.md", docs / "folders.md", docs / "running.md", docs / "window.md")
-        for page in (*others, *sorted((docs / "decisions").glob("*.md"))):
+        for page in (*others, *sorted((docs / "decisions").glob("*.md")), *sorted((docs / "theory").glob("*.md"))):
             with self.subTest(page.name):
                 self.assertEqual([name for name in sorted(names(page.read_text())) if not tree.has(name)], [])
 
