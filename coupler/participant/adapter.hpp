@@ -29,6 +29,7 @@
 #include "coupler/protocol/settings.hpp"
 #include "coupler/protocol/stored_file.hpp"
 
+/// The library of a participant, and the records that programs exchange.
 namespace turbidite {
 
 /// A participant's state as bytes, which mean nothing to all others.
@@ -58,8 +59,8 @@ class GrainsAdapter {
     virtual Motion initialise(const Settings& settings, const ShapeTable& shapes,
                               const std::vector<GrainState>& grains) = 0;
 
-    /// Step 4, the contact problem. Returns every grain with position and orientation of the start
-    /// of the window, q^n, the velocities after the contacts and the impulses of the contacts
+    /// The contacts of the window, step 4. Returns every grain with position and orientation of the
+    /// start of the window, q^n, the velocities after the contacts and the impulses of the contacts
     /// (Topin 2011, Eqs. 16-19).
     ///
     /// Without responses (`split`, without a fluid) grains have the inertia cM and the weight
@@ -131,8 +132,8 @@ class FluidAdapter {
     /// over the window together with the fluid.
     virtual void let_fall(const Window& window, const std::vector<GrainState>& grains) = 0;
 
-    /// Step 5 (Equations 9 and 10), for every grain that touches this rank's box, with the
-    /// velocities and contact impulses of a contact solve.
+    /// The multipliers, step 5 (Equations 9 and 10), for every grain that touches this rank's box,
+    /// with the velocities and contact impulses of a contact solve.
     ///
     /// As the first call of its window (`split`) it takes the grains with the given velocities
     /// U^{n+4/5}, which contain their contact impulses. After let_fall, or after another correct,

@@ -28,40 +28,41 @@ extern "C" {
  * prescribed, radius and density. */
 typedef struct {
     int64_t id;
-    int32_t shape;      /**< index into the table of shapes: turbidite_shape_at */
-    int32_t material;   /**< 0: contact.*, 1: first of run.materials */
-    int32_t prescribed; /**< not 0: keeps its velocity and spin whatever forces act on it */
-    /** Circumscribed radius [m], density [kg/m3]. */
-    double radius, density;
-    double position[3];    /**< of the centre, q [m] */
-    double orientation[4]; /**< w, x, y, z; of length 1; body axes to world axes */
-    /** U of the centre [m/s], omega in world axes [rad/s]. */
-    double velocity[3], angular_velocity[3];
-    /** Sum of the window's contact impulses [N s], and of their moments about the centre [N m s].
-     */
-    double contact_impulse[3], contact_angular_impulse[3];
-    /** Impulse of the fluid that is already contained in the velocity [N s], and its moment [N m
-     * s]; zero unless the code holds that of the last window during its sub-steps. */
-    double announced_impulse[3], announced_angular_impulse[3];
+    int32_t shape;             /**< index into the table of shapes: turbidite_shape_at */
+    int32_t material;          /**< 0: coefficients of `contact`; 1: first of run.materials */
+    int32_t prescribed;        /**< not 0: keeps its velocity and spin whatever forces act on it */
+    double radius,             /**< circumscribed radius [m] */
+        density;               /**< [kg/m3] */
+    double position[3];        /**< of the centre, q [m] */
+    double orientation[4];     /**< w, x, y, z; of length 1; body axes to world axes */
+    double velocity[3],        /**< U of the centre [m/s] */
+        angular_velocity[3];   /**< omega, world axes [rad/s] */
+    double contact_impulse[3], /**< sum of the window's contact impulses [N s] */
+        contact_angular_impulse[3]; /**< of their moments about the centre [N m s] */
+    double announced_impulse[3],    /**< of the fluid, already contained in the velocity [N s]; zero
+                                       unless the code holds that of the last window during its
+                                       sub-steps */
+        announced_angular_impulse[3]; /**< its moment about the centre [N m s] */
 } turbidite_grain;
 
 /** What the fluid does to a grain over one window. */
 typedef struct {
     int64_t id;
-    /** U^{n+1} [m/s] and omega^{n+1} [rad/s], which the grain has at the end of the window. */
-    double velocity[3], angular_velocity[3];
-    /** dt times the integral of the multiplier over the grain [N s], and of its moment [N m s]. */
-    double multiplier_impulse[3], multiplier_angular_impulse[3];
-    /** Of the fluid on the grain, without buoyancy [N], [N m]; for output. */
-    double force[3], torque[3];
+    double velocity[3],      /**< U^{n+1}, of the grain at the end of the window [m/s] */
+        angular_velocity[3]; /**< omega^{n+1}, likewise [rad/s] */
+    double
+        multiplier_impulse[3], /**< dt times the integral of the multiplier over the grain [N s] */
+        multiplier_angular_impulse[3]; /**< of its moment about the centre [N m s] */
+    double force[3],                   /**< of the fluid, without buoyancy; for output [N] */
+        torque[3];                     /**< likewise [N m] */
 } turbidite_kick;
 
 /** How a grain in the fluid responds to contact impulses J and K of the window: (U, omega) =
  * (velocity, angular_velocity) + inertia^-1 (J, K). Of `sub-iterated` only the velocities count. */
 typedef struct {
     int64_t id;
-    /** Without contact impulses [m/s], [rad/s]. */
-    double velocity[3], angular_velocity[3];
+    double velocity[3],      /**< without contact impulses [m/s] */
+        angular_velocity[3]; /**< likewise [rad/s] */
     /** A symmetric 6 x 6 matrix, its upper triangle by rows, translation first [kg, kg m, kg m2].
      * All zero for a grain with a given motion, which no impulse changes. */
     double inertia[21];
@@ -70,25 +71,26 @@ typedef struct {
 
 /** One step of the coupling, from t^n to t^n + dt. */
 typedef struct {
-    int64_t index; /**< from 0 on; goes on in a resumed run */
-    /** t^n, the time at its start, and dt, its length [s]. */
-    double time, step;
+    int64_t index;        /**< from 0 on; goes on in a resumed run */
+    double time,          /**< t^n, at its start [s] */
+        step;             /**< dt, its length [s] */
     int32_t write_output; /**< not 0: single contacts are welcome with the state */
 } turbidite_window;
 
 /** The report of the contact side. It begins with zeros, converged = 1, and NaN, which stands for
  * none, in residual, quad, max and contact_violation. */
 typedef struct {
-    /** Contacts with an impulse; sweeps of the contact solver, or sub-steps; grains that have left
-     * through a free side in this window (apply_kick only). */
-    int64_t contacts, iterations, removed;
-    /** Scaled natural map; deepest overlap of the window [m]; time of the program's own work [s].
-     */
-    double residual, max_penetration, wall_seconds;
-    int32_t converged; /**< within the tolerance of the contact solver */
-    /** Mean and largest change by one more update of every contact; how far the final velocities
-     * are from the contact conditions [m/s] (apply_kick only). */
-    double quad, max, contact_violation;
+    int64_t contacts, /**< with an impulse */
+        iterations,   /**< sweeps of the contact solver, or sub-steps */
+        removed; /**< grains that have left through a free side in this window (apply_kick only) */
+    double residual,       /**< scaled natural map */
+        max_penetration,   /**< deepest overlap of the window [m] */
+        wall_seconds;      /**< of the program's own work [s] */
+    int32_t converged;     /**< within the tolerance of the contact solver */
+    double quad,           /**< change by one more update of every contact, quadratic mean */
+        max,               /**< the largest */
+        contact_violation; /**< how far the final velocities are from the contact conditions [m/s]
+                              (apply_kick only) */
 } turbidite_report;
 
 /** Bit of turbidite_contact.status: friction is at its limit. */
@@ -99,19 +101,18 @@ typedef struct {
 /** One contact point with an impulse. A pair that touches along an edge has several. With several
  * ranks, one of them reports the contact. */
 typedef struct {
-    /** The smaller and the larger id. At a wall b is the grain, and a has no meaning. */
-    int64_t a, b;
-    int32_t wall;    /**< -1: a is a grain; 0 left, 1 right, 2 bottom, 3 top, others follow */
-    int32_t feature; /**< which of the pair's points */
-    int32_t status;  /**< bits of TURBIDITE_SLIDING, TURBIDITE_ROLLING */
-    /** Distance of the surfaces, negative for an overlap; of the face that the point stands for, 0
-     * for points [m]. */
-    double gap, length;
-    /** Place [m]; unit vector from a to b, at a wall into the box; centre of b minus that of a, at
-     * a wall minus `point` [m]. */
-    double point[3], normal[3], branch[3];
-    /** On b over the window [N s]; moment on b besides that of `impulse` [N m s]. */
-    double impulse[3], rolling_impulse[3];
+    int64_t a,         /**< the smaller id; of no meaning at a wall */
+        b;             /**< the larger id, or the grain at the wall */
+    int32_t wall;      /**< -1: a is a grain; 0 left, 1 right, 2 bottom, 3 top, others follow */
+    int32_t feature;   /**< which of the pair's points */
+    int32_t status;    /**< bits of TURBIDITE_SLIDING, TURBIDITE_ROLLING */
+    double gap,        /**< between the surfaces, negative for an overlap [m] */
+        length;        /**< of the face that the point stands for; 0 for points [m] */
+    double point[3],   /**< [m] */
+        normal[3],     /**< unit vector from a to b, at a wall into the box */
+        branch[3];     /**< centre of b minus that of a, at a wall minus `point` [m] */
+    double impulse[3], /**< on b over the window [N s] */
+        rolling_impulse[3]; /**< moment on b besides that of `impulse` [N m s] */
 } turbidite_contact;
 
 /** An entry of the table of shapes. */
@@ -171,9 +172,10 @@ void* turbidite_room(turbidite_bytes* state, size_t size);
  * participants, with exit code 4 and the text. In a window `advance` is called once, or with
  * responses once or more, and then `apply_kick`. */
 typedef struct {
-    void* self; /**< passed to every function; the program's own */
-    /** Of the program and its host code; shown in `run.json`. */
-    const char *name, *version, *host_code;
+    void* self;                /**< passed to every function; the program's own */
+    const char *name,          /**< of the program; shown in `run.json`, as the next two */
+        *version,              /**< its own */
+        *host_code;            /**< what it runs in, with its version */
     const char* const* shapes; /**< kinds it knows; ends with a null pointer; null: discs */
     int32_t native_substeps;   /**< moves grains in smaller steps of its own */
     int32_t effective_inertia; /**< advance uses the responses of `joint` */

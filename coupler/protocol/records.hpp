@@ -31,7 +31,7 @@ using GrainId = std::int64_t;
 struct GrainState {
     GrainId id = 0;
     std::int32_t shape = 0;     ///< index into ShapeTable
-    std::int32_t material = 0;  ///< 0: the coefficients of contact.*; 1: first of run.materials
+    std::int32_t material = 0;  ///< 0: coefficients of `contact`; 1: first of run.materials
     bool prescribed = false;    ///< keeps its velocity and spin whatever forces act on it
     double radius = 0.0;        ///< circumscribed radius R [m]
     double density = 0.0;       ///< rho_s [kg/m3]
@@ -46,7 +46,7 @@ struct GrainState {
     Vec3 announced_angular_impulse{};  ///< its moment about the centre [N m s]
 };
 
-/// What step 5 does to a grain over one window (Topin 2011, Eqs. 9-10).
+/// What step 5 does to a grain over one window (Topin 2011, Equations 9 and 10).
 ///
 /// The fluid fills in velocities and multiplier impulses; the hub adds force and torque
 /// (hub/kick_rule).
