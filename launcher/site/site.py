@@ -17,8 +17,8 @@ import tempfile
 from pathlib import Path
 from xml.etree import ElementTree
 
-HERE = Path(__file__).resolve().parent
-CONFIGURATION = HERE / 'mkdocs.yml'
+CONFIGURATION = Path(__file__).resolve().parent / 'mkdocs.yml'
+REFERENCE = Path('launcher/site/api')
 API_PLACE = re.compile(r'^ +- API: .*\n', re.M)
 LINK = re.compile(r'\]\(([^)#\s:]+)(#[^)\s]*)?\)')
 PICTURES = ('.png', '.webp', '.svg')
@@ -36,7 +36,7 @@ def as_page(sources, page, reference):
     def link(match):
         target = (sources / page).parent / match[1]
         if described := reference.get(target.resolve()):
-            return '](' + '../' * (len(page.parts) - 1) + f'api/{described}'
+            return '](' + '../' * (len(page.parts) - 1) + f'api/{described})'
         if target.suffix == '.md' or target.suffix in PICTURES or not target.exists():
             return match[0]
         return '](' + '\0'
@@ -56,14 +56,21 @@ def version_of(sources):
     return ' '.join(part for part in (version and version[1], commit and f'({commit})') if part)
 
 
+def lacking(sources):
+    """What keeps the site from having the reference; empty if nothing does."""
+    if not (sources / REFERENCE).is_dir():
+        return f'{sources} has pages only'
+    return '' if shutil.which('doxygen') else 'apt-get install doxygen'
+
+
 def describe(sources, folder, more=''):
     """The reference of headers and module, made by doxygen in the folder: the page of each header, and the warnings. The
-    settings are those of api/*Doxyfile, and what more is given."""
+    settings are those of REFERENCE, and what more is given."""
     folder.mkdir(parents=True)
     warnings = ''
     with tempfile.TemporaryDirectory() as work:
         for part in ('python.Doxyfile', 'Doxyfile'):
-            settings = (f'@INCLUDE = "{HERE}/api/{part}"\nPROJECT_NUMBER = "{version_of(sources)}"\n'
+            settings = (f'@INCLUDE_PATH = {REFERENCE}\n@INCLUDE = {part}\nPROJECT_NUMBER = "{version_of(sources)}"\n'
                         f'OUTPUT_DIRECTORY = "{folder}"\nGENERATE_TAGFILE = "{work}/tags.xml"\n{more}\n')
             done = subprocess.run(['doxygen', '-'], input=settings, cwd=sources, capture_output=True, text=True, check=False)
             if done.returncode:
@@ -95,11 +102,11 @@ def build(sources, site):
     with tempfile.TemporaryDirectory() as work:
         work = Path(work)
         configuration, reference = CONFIGURATION.read_text() + 'docs_dir: pages\n', {}
-        if shutil.which('doxygen'):
-            reference, _ = describe(sources, work / 'pages/api')
-        else:
-            print('The site is without the reference of the headers (API): apt-get install doxygen', file=sys.stderr)
+        if lacks := lacking(sources):
+            print(f'The site is without the reference of the headers (API): {lacks}', file=sys.stderr)
             configuration = API_PLACE.sub('', configuration)
+        else:
+            reference, _ = describe(sources, work / 'pages/api')
         stage(sources, work / 'pages', reference)
         (work / 'mkdocs.yml').write_text(configuration)
         done = subprocess.run(['mkdocs', 'build', '--strict', '-f', work / 'mkdocs.yml', '-d', work / 'site'],
