@@ -11,7 +11,7 @@
  *     }
  *
  * What a call receives is valid until it returns, and so is the room for its answer. Calls never
- * overlap and come from the thread that has called turbidite_run_grains; the functions below are
+ * overlap and come from the thread that has called #turbidite_run_grains; the functions below are
  * called from there as well.
  */
 #ifndef TURBIDITE_H
@@ -28,17 +28,17 @@ extern "C" {
  * prescribed, radius and density. */
 typedef struct {
     int64_t id;
-    int32_t shape;             /**< index into the table of shapes: turbidite_shape_at */
+    int32_t shape;             /**< index into the table of shapes: turbidite_shape_at() */
     int32_t material;          /**< 0: coefficients of `contact`; 1: first of run.materials */
     int32_t prescribed;        /**< not 0: keeps its velocity and spin whatever forces act on it */
     double radius,             /**< circumscribed radius [m] */
-        density;               /**< [kg/m3] */
+        density;               /**< rho_s [kg/m3] */
     double position[3];        /**< of the centre, q [m] */
     double orientation[4];     /**< w, x, y, z; of length 1; body axes to world axes */
     double velocity[3],        /**< U of the centre [m/s] */
         angular_velocity[3];   /**< omega, world axes [rad/s] */
     double contact_impulse[3], /**< sum of the window's contact impulses [N s] */
-        contact_angular_impulse[3]; /**< of their moments about the centre [N m s] */
+        contact_angular_impulse[3]; /**< sum of their moments about the centre [N m s] */
     double announced_impulse[3],    /**< of the fluid, already contained in the velocity [N s]; zero
                                        unless the code holds that of the last window during its
                                        sub-steps */
@@ -49,12 +49,12 @@ typedef struct {
 typedef struct {
     int64_t id;
     double velocity[3],      /**< U^{n+1}, of the grain at the end of the window [m/s] */
-        angular_velocity[3]; /**< omega^{n+1}, likewise [rad/s] */
+        angular_velocity[3]; /**< omega^{n+1}, of the grain at the end of the window [rad/s] */
     double
         multiplier_impulse[3], /**< dt times the integral of the multiplier over the grain [N s] */
-        multiplier_angular_impulse[3]; /**< of its moment about the centre [N m s] */
+        multiplier_angular_impulse[3]; /**< the same of its moment about the centre [N m s] */
     double force[3],                   /**< of the fluid, without buoyancy; for output [N] */
-        torque[3];                     /**< likewise [N m] */
+        torque[3];                     /**< of the fluid about the centre; for output [N m] */
 } turbidite_kick;
 
 /** How a grain in the fluid responds to contact impulses J and K of the window: (U, omega) =
@@ -62,7 +62,7 @@ typedef struct {
 typedef struct {
     int64_t id;
     double velocity[3],      /**< without contact impulses [m/s] */
-        angular_velocity[3]; /**< likewise [rad/s] */
+        angular_velocity[3]; /**< without contact impulses [rad/s] */
     /** A symmetric 6 x 6 matrix, its upper triangle by rows, translation first [kg, kg m, kg m2].
      * All zero for a grain with a given motion, which no impulse changes. */
     double inertia[21];
@@ -88,14 +88,14 @@ typedef struct {
         wall_seconds;      /**< of the program's own work [s] */
     int32_t converged;     /**< within the tolerance of the contact solver */
     double quad,           /**< change by one more update of every contact, quadratic mean */
-        max,               /**< the largest */
+        max,               /**< the largest such change */
         contact_violation; /**< how far the final velocities are from the contact conditions [m/s]
                               (apply_kick only) */
 } turbidite_report;
 
-/** Bit of turbidite_contact.status: friction is at its limit. */
+/** Bit of turbidite_contact::status: friction is at its limit. */
 #define TURBIDITE_SLIDING 1
-/** Bit of turbidite_contact.status: the rolling moment is at its limit. */
+/** Bit of turbidite_contact::status: the rolling moment is at its limit. */
 #define TURBIDITE_ROLLING 2
 
 /** One contact point with an impulse. A pair that touches along an edge has several. With several
@@ -108,7 +108,7 @@ typedef struct {
     int32_t status;    /**< bits of TURBIDITE_SLIDING, TURBIDITE_ROLLING */
     double gap,        /**< between the surfaces, negative for an overlap [m] */
         length;        /**< of the face that the point stands for; 0 for points [m] */
-    double point[3],   /**< [m] */
+    double point[3],   /**< where it is [m] */
         normal[3],     /**< unit vector from a to b, at a wall into the box */
         branch[3];     /**< centre of b minus that of a, at a wall minus `point` [m] */
     double impulse[3], /**< on b over the window [N s] */
@@ -145,7 +145,8 @@ const char* turbidite_text(const turbidite_settings* settings, const char* key);
 /** All keys: 0, 1, 2, ...; a null pointer past the end. */
 const char* turbidite_key(const turbidite_settings* settings, size_t index);
 
-/** The shape of a grain, by turbidite_grain.shape; its `kind` is null past the end of the table. */
+/** The shape of a grain, by turbidite_grain::shape; its `kind` is null past the end of the table.
+ */
 turbidite_shape turbidite_shape_at(const turbidite_settings* settings, size_t index);
 
 /** Room for the grains of the answer, all zero, to be filled in: every grain of this rank, in any
@@ -154,7 +155,7 @@ turbidite_grain* turbidite_grains(turbidite_state* state, size_t count);
 /** The report of the answer, to be filled in as far as the program has the numbers. */
 turbidite_report* turbidite_report_of(turbidite_state* state);
 
-/** As turbidite_grains for single contacts, with the state (apply_kick) of windows with output.
+/** As turbidite_grains() for single contacts, with the state (apply_kick) of windows with output.
  * Without this call none are sent; a count of 0 says that nothing touches. Zero in `wall` is the
  * left side: a contact of two grains has -1 there. */
 turbidite_contact* turbidite_contacts(turbidite_state* state, size_t count);
@@ -162,19 +163,19 @@ turbidite_contact* turbidite_contacts(turbidite_state* state, size_t count);
 /** Room for a saved state, to be filled in. Once per call of `save`. */
 void* turbidite_room(turbidite_bytes* state, size_t size);
 
-/** turbidite_adapter.dimensions of a program that plays in the plane and in space. */
+/** turbidite_adapter::dimensions of a program that plays in the plane and in space. */
 #define TURBIDITE_BOTH_DIMENSIONS 23
 
 /** A granular code: what it is and its functions. A program sets what it has and leaves the rest
  * zero.
  *
- * The functions return 0, or another number after turbidite_fail: the run then ends for all
+ * The functions return 0, or another number after turbidite_fail(): the run then ends for all
  * participants, with exit code 4 and the text. In a window `advance` is called once, or with
  * responses once or more, and then `apply_kick`. */
 typedef struct {
     void* self;                /**< passed to every function; the program's own */
-    const char *name,          /**< of the program; shown in `run.json`, as the next two */
-        *version,              /**< its own */
+    const char *name,          /**< of the program; shown in `run.json`, like the next two */
+        *version,              /**< of the program */
         *host_code;            /**< what it runs in, with its version */
     const char* const* shapes; /**< kinds it knows; ends with a null pointer; null: discs */
     int32_t native_substeps;   /**< moves grains in smaller steps of its own */
@@ -197,7 +198,7 @@ typedef struct {
     int (*apply_kick)(void* self, const turbidite_window* window, const turbidite_kick* kicks,
                       size_t count, turbidite_state* answer);
 
-    /** Writes the state, which it gets room for by turbidite_room. With `save` and `restore` the
+    /** Writes the state, which it gets room for by turbidite_room(). With `save` and `restore` the
      * run has checkpoints; a program has both or none. A failure costs this checkpoint, not the
      * run. */
     int (*save)(void* self, turbidite_bytes* state);
@@ -235,7 +236,7 @@ void turbidite_fail(const char* text, int unphysical);
  * it uses a member that the library does not know. */
 #define turbidite_run_grains(adapter, argc, argv, run_folder) \
     turbidite_run_grains_sized(adapter, sizeof(turbidite_adapter), argc, argv, run_folder)
-/** turbidite_run_grains with the size of the program's turbidite_adapter. */
+/** #turbidite_run_grains with the size of the program's turbidite_adapter. */
 int turbidite_run_grains_sized(const turbidite_adapter* adapter, size_t adapter_size, int* argc,
                                char*** argv, const char* run_folder);
 

@@ -103,7 +103,7 @@ class Motion:
 
 
 class Settings(dict):
-    """The resolved case, key -> text, and run.*; the typed look-ups name a key that is missing."""
+    """The resolved case, key -> text, with run.* of settings.hpp; the typed look-ups name a key that is missing."""
 
     def text(self, key):
         """Any value, as it stands; KeyError for a key that is missing."""
