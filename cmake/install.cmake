@@ -42,14 +42,16 @@ endforeach()
 install(DIRECTORY docs DESTINATION share/doc/turbidite COMPONENT run)
 install(FILES README.md SECURITY.md CITATION.cff DESTINATION share/doc/turbidite COMPONENT run)
 
-# The site of `turbidite docs`; programs are built without mkdocs too.
+# The site of `turbidite docs`; programs are built without mkdocs too, and the site without doxygen.
 find_program(MKDOCS mkdocs)
 if(MKDOCS)
     file(GLOB pages CONFIGURE_DEPENDS *.md docs/*.md docs/*/*.md docs/images/*.png docs/images/*/*.png configs/*.md)
+    file(GLOB reference CONFIGURE_DEPENDS coupler/participant/*.h* coupler/participant/python/*.py coupler/protocol/*.hpp
+         coupler/rigid/*.hpp coupler/transport/*.hpp launcher/site/api/*)
     set(site ${PROJECT_BINARY_DIR}/site)
     add_custom_command(OUTPUT ${site}/index.html
         COMMAND /usr/bin/python3 -B ${PROJECT_SOURCE_DIR}/launcher/site/site.py build ${PROJECT_SOURCE_DIR} ${site}
-        DEPENDS ${pages} launcher/site/site.py launcher/site/mkdocs.yml VERBATIM)
+        DEPENDS ${pages} ${reference} launcher/site/site.py launcher/site/mkdocs.yml VERBATIM)
     add_custom_target(site ALL DEPENDS ${site}/index.html)
     install(DIRECTORY ${site}/ DESTINATION share/doc/turbidite/html OPTIONAL COMPONENT run)
 endif()

@@ -60,7 +60,7 @@ class Springs:
         f = self.push(force, overlap, closing, normal, m[i] * m[j] / (m[i] + m[j]))
         numpy.add.at(force, j, f)
         numpy.add.at(force, i, -f)
-        self.overlap = max(0.0, overlap.max(initial=0.0))
+        self.overlap = max(self.overlap, overlap.max(initial=0.0))
         for axis, sign, place in [side for k, size in enumerate(self.size) for side in ((k, 1, 0), (k, -1, size))]:
             wall = numpy.zeros_like(x)
             wall[:, axis] = sign
@@ -72,6 +72,7 @@ class Springs:
     def advance(self, window, responses):
         x, v = self.grains['position'][:, :self.axes].copy(), self.grains['velocity'][:, :self.axes].copy()
         impulse, dt = numpy.zeros_like(x), window.step / self.substeps
+        self.overlap = 0.0                                          # the largest of the window
         for _ in range(self.substeps):
             force = self.contact_forces(x, v)
             impulse += dt * force

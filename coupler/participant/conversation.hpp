@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Communication of one rank with the coupler: frames, call order, waiting. Adapters use sessions,
-// not this.
+/// \file
+/// Communication of one rank with the coupler: frames, call order, waiting. Adapters use sessions,
+/// not this.
 #pragma once
 
 #include <utility>
@@ -25,8 +25,10 @@ class CouplerSilent : public Failure {
     explicit CouplerSilent(const std::string& what) : Failure(ExitCode::stalled, what) {}
 };
 
+/// The messages between this rank and the coupler, each checked against the call order.
 class Conversation {
  public:
+    /// The channel outlives it.
     Conversation(Role role, Channel& channel);
 
     /// Sets the messages of a window; to be called before the start is over.
@@ -52,6 +54,7 @@ class Conversation {
 
     /// A message without content.
     void send(Kind kind);
+    /// Throws OrderViolation if the kind is not due.
     template <class Record>
     void send(Kind kind, const Record& record) {
         channel_.send(0, framed(order_.next_sent(kind, to_coupler), record));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Drives an adapter through a run. A host code with its own loop (YADE) calls `start` once and
-// `step` once per window; other programs use participant.hpp.
-//
-// Valid C++17; includes neither MPI nor any host.
+/// \file
+/// Drives an adapter through a run. A host code with its own loop (YADE) calls `start` once and
+/// `step` once per window; other programs use participant.hpp.
+///
+/// Valid C++17; includes neither MPI nor any host.
 #pragma once
 
 #include <functional>
@@ -19,19 +19,21 @@ class FramedMessage;
 
 /// Who this rank is; fills the fields of Hello that the adapter cannot know.
 struct Identity {
-    int rank = 0;
-    int ranks = 1;
-    std::string log_file;
-    std::string case_hash;
+    int rank = 0;                 ///< among those of its program
+    int ranks = 1;                ///< of its program
+    std::string log_file;         ///< for the messages of others
+    std::string case_hash;        ///< case_hash() of `RUN/case.yaml`; empty: not known
     std::string run_folder = {};  ///< folders of checkpoints are relative to it
 };
 
 /// How the run ended for this participant.
 struct Outcome {
     ExitCode code = ExitCode::done;
-    std::string reason;
+    std::string reason;  ///< empty if the run is done
 };
 
+/// One rank's part of a run: start() once, step() per window until it returns false, then
+/// outcome(). Made by make_session().
 class Session {
  public:
     virtual ~Session();
@@ -46,7 +48,7 @@ class Session {
     /// participants, with its text.
     bool step();
 
-    /// After `start` or `step` returned false.
+    /// After `start` or `step` returned false; throws std::logic_error before.
     const Outcome& outcome() const;
 
     /// `text` describes an exception that is not a C++ standard exception, such as a Python error
@@ -71,8 +73,10 @@ class Session {
     Phase phase_ = Phase::made;
 };
 
+/// `adapter` and `channel` outlive the session.
 std::unique_ptr<Session> make_session(GrainsAdapter& adapter, Channel& channel,
                                       const Identity& identity);
+/// The same for a fluid.
 std::unique_ptr<Session> make_session(FluidAdapter& adapter, Channel& channel,
                                       const Identity& identity);
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// The legal order of messages, as data. The order of a window is defined by its scheme
-// (hub/schemes). The coupler sends it to every participant at the start, and both ends check every
-// message against it: a call out of order is an error message, never a deadlock. Nothing here
-// depends on a particular scheme. Valid C++17.
-//
-// Between two windows the coupler may also have a checkpoint written or read: save → saved, restore
-// → restored. For all participants, at any time: dismiss → farewell → release, or failure before
-// them.
+/// \file
+/// The legal order of messages, as data. The order of a window is defined by its scheme
+/// (hub/schemes). The coupler sends it to every participant at the start, and both ends check every
+/// message against it: a call out of order is an error message, never a deadlock. Nothing here
+/// depends on a particular scheme. Valid C++17.
+///
+/// Between two windows the coupler may also have a checkpoint written or read: save → saved,
+/// restore → restored. For all participants, at any time: dismiss → farewell → release, or failure
+/// before them.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ enum class Times { once, per_round };
 /// One message of an order, as one role sends or receives it.
 struct Step {
     Kind kind;
-    bool from_coupler;
+    bool from_coupler;  ///< or to the coupler
     Times times = Times::once;
 };
 
@@ -40,7 +40,9 @@ using Order = std::vector<Step>;
 inline constexpr bool from_coupler = true;
 inline constexpr bool to_coupler = false;
 
+/// Payload of `order`.
 Bytes encode(const Order&);
+/// Throws MalformedPayload.
 template <>
 Order decode(View);
 
@@ -52,6 +54,7 @@ Order start_order(Role role);
 /// message of the coupler.
 void check_window_order(const Order& order);
 
+/// A message that is not due, or not the expected one.
 class OrderViolation : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;
@@ -82,6 +85,7 @@ class CallOrder {
     /// The messages that may come next: one, or several from the same sender after a round, whose
     /// first one ends the rounds, and between windows, whose first one is `window`.
     std::vector<Step> due() const;
+    /// Whether this one may come next.
     bool is_due(Kind kind, bool by_coupler) const;
 
     /// "\"motion\"", or after a round "\"accept\" or \"constraint\"".
@@ -90,8 +94,8 @@ class CallOrder {
     /// True until the last message of the present window has passed.
     bool inside_window() const { return started_ && at_ > 0; }
 
-    std::int64_t window() const { return window_; }
-    std::int64_t iteration() const { return iteration_; }
+    std::int64_t window() const { return window_; }        ///< the present one; -1 before the first
+    std::int64_t iteration() const { return iteration_; }  ///< rounds begun in this window
 
  private:
     std::vector<std::size_t> due_places() const;

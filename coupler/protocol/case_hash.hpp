@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// The fingerprint by which all programs of a job know that they were started on the same case.
-// Valid C++17.
+/// \file
+/// The fingerprint by which all programs of a job know that they were started on the same case.
+/// Valid C++17.
 #pragma once
 
 #include <cstdint>

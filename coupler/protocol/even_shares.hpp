@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// How grains are shared out among ranks that have none yet: in shares of nearly equal count, in the
-// order of x (and of ids), so that neighbours stay together. Known to both ends where a run goes on
-// with another number of ranks. Valid C++17.
+/// \file
+/// How grains are shared out among ranks that have none yet: in shares of nearly equal count, in
+/// the order of x (and of ids), so that neighbours stay together. Known to both ends where a run
+/// goes on with another number of ranks. Valid C++17.
 #pragma once
 
 #include <algorithm>

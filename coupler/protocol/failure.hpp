@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Exit codes of the job, and errors that carry one. Valid C++17.
+/// \file
+/// Exit codes of the job, and errors that carry one. Valid C++17.
 #pragma once
 
 #include <stdexcept>
@@ -12,11 +12,11 @@ namespace turbidite {
 enum class ExitCode : int {
     done = 0,
     tests_failed = 1,
-    bad_input = 2,
-    handshake_refused = 3,
-    participant_failed = 4,
-    stalled = 5,
-    physics_refused = 6,
+    bad_input = 2,           ///< before a job; within one it counts as participant_failed
+    handshake_refused = 3,   ///< programs or case do not fit together
+    participant_failed = 4,  ///< a program threw, crashed or ended too early
+    stalled = 5,             ///< a program did not answer
+    physics_refused = 6,     ///< an unphysical state, or a record that cannot be right
     interrupted = 130,
     terminated = 143,
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// For programs that allocate and free arrays in every window. Valid C++17.
+/// \file
+/// For programs that allocate and free arrays in every window. Valid C++17.
 #pragma once
 
 #include <malloc.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Position of a grain in a list of grains. The lists of successive windows usually contain the same
-// grains, so an index is kept as long as it is valid. Valid C++17.
+/// \file
+/// Position of a grain in a list of grains. The lists of successive windows usually contain the
+/// same grains, so an index is kept as long as it is valid. Valid C++17.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,10 @@
 
 namespace turbidite {
 
+/// The places of ids in a list of grains.
 class GrainIndex {
  public:
+    /// The place of an id that is not in the list.
     static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
 
     GrainIndex() = default;

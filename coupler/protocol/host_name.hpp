@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Valid C++17.
+/// \file
+/// Valid C++17.
 #pragma once
 
 #include <string>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// The rows of cells of the fluid's mesh, from the bottom up. They are squares of edge h = D over
-// fluid.cells_per_diameter up to fluid.stretch_from, rounded up to a whole row. Above, each is r
-// times as high as the one below, up to fluid.stretch_largest h:
-//
-//     h_k = min(h r^k, L),  k = 1 .. n
-//
-// n is the smallest number for which fluid.stretch_ratio reaches the top, and r the ratio up to
-// that one with which n rows end there exactly. Valid C++17.
+/// \file
+/// The rows of cells of the fluid's mesh, from the bottom up. They are squares of edge h = D over
+/// fluid.cells_per_diameter up to fluid.stretch_from, rounded up to a whole row. Above, each is r
+/// times as high as the one below, up to fluid.stretch_largest h:
+///
+///     h_k = min(h r^k, L),  k = 1 .. n
+///
+/// n is the smallest number for which fluid.stretch_ratio reaches the top, and r the ratio up to
+/// that one with which n rows end there exactly. Valid C++17.
 #pragma once
 
 #include <optional>

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/protocol/plates.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+
+#include "coupler/protocol/number_text.hpp"
 
 namespace turbidite {
 namespace {
@@ -14,20 +16,22 @@ namespace {
 constexpr std::size_t numbers_per_plate = 12;
 using Numbers = std::array<double, numbers_per_plate>;
 
-/// Parses exactly twelve numbers, with strtod, since streams do not read every format that is
-/// written.
+/// Exactly twelve numbers.
 Numbers numbers_of(const std::string& text) {
-    Numbers numbers{};
-    const char* at = text.c_str();
-    for (double& number : numbers) {
-        char* end = nullptr;
-        number = std::strtod(at, &end);
-        if (end == at)
-            throw std::invalid_argument("run.walls: \"" + text + "\" has fewer than 12 numbers");
-        at = end;
+    const auto refuse = [&](const std::string& fault) {
+        throw std::invalid_argument("run.walls: \"" + text + "\" " + fault);
+    };
+    std::vector<double> read;
+    try {
+        std::istringstream words(text);
+        read = remaining_numbers(words);
+    } catch (const std::invalid_argument& fault) {
+        refuse(fault.what());
     }
-    if (*at != '\0')
-        throw std::invalid_argument("run.walls: \"" + text + "\" has more than 12 numbers");
+    if (read.size() != numbers_per_plate)
+        refuse("has " + std::to_string(read.size()) + " numbers, not 12");
+    Numbers numbers;
+    std::copy(read.begin(), read.end(), numbers.begin());
     return numbers;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Walls inside the box in the plane: plates that are at rest or follow a prescribed motion, for
-// grains and fluid alike. Those of space: space_walls.hpp. From the resolved case (written by
-// launcher/case/inner_walls):
-//
-//     run.walls   `ID X1 Y1 X2 Y2 VX VY SPIN PX PY FRICTION THICKNESS` in run units, separated by
-//     `;`
-//
-// and run.wall_motions (prescribed_motion.hpp) for those that follow a motion. Valid C++17.
+/// \file
+/// Walls inside the box in the plane: plates that are at rest or follow a prescribed motion, for
+/// grains and fluid alike. Those of space: space_walls.hpp. From the resolved case (written by
+/// launcher/case/inner_walls):
+///
+///     run.walls   `ID X1 Y1 X2 Y2 VX VY SPIN PX PY FRICTION THICKNESS` in run units, separated by
+///     `;`
+///
+/// and run.wall_motions (prescribed_motion.hpp) for those that follow a motion. Valid C++17.
 #pragma once
 
 #include <cstdint>

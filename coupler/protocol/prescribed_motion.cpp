@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "coupler/protocol/number_text.hpp"
 #include "coupler/protocol/sides.hpp"
 
 namespace turbidite {
@@ -22,6 +23,13 @@ struct Numbers {
     std::size_t per_shift() const { return dimension == 3 ? 6 : 3; }
     double at(std::size_t i) const { return all.at(i); }
 
+    /// Throws std::invalid_argument.
+    void require(std::size_t count) const {
+        if (all.size() != count)
+            throw std::invalid_argument(std::to_string(all.size()) + " numbers, not " +
+                                        std::to_string(count));
+    }
+
     /// `X Y ANGLE`, in space `X Y Z AX AY AZ`, from the i-th number on.
     Shift shift(std::size_t i = 0) const {
         if (dimension == 2) return {{at(i), at(i + 1), 0.0}, {0.0, 0.0, at(i + 2)}};
@@ -34,6 +42,7 @@ class Constant final : public PrescribedMotion {
  public:
     explicit Constant(const Twist& rate) : rate_(rate) {}
     explicit Constant(const Numbers& numbers) {
+        numbers.require(numbers.per_shift());
         const Shift in_unit_time = numbers.shift();
         // v and w are the displacement and the angle after one unit of time.
         rate_ = {in_unit_time.displacement, in_unit_time.angle};
@@ -49,10 +58,12 @@ class Constant final : public PrescribedMotion {
 /// `harmonic X Y ANGLE PERIOD PHASE`.
 class Harmonic final : public PrescribedMotion {
  public:
-    explicit Harmonic(const Numbers& numbers)
-        : amplitude_(numbers.shift()),
-          period_(numbers.at(numbers.per_shift())),
-          phase_(numbers.at(numbers.per_shift() + 1)) {}
+    explicit Harmonic(const Numbers& numbers) {
+        numbers.require(numbers.per_shift() + 2);
+        amplitude_ = numbers.shift();
+        period_ = numbers.at(numbers.per_shift());
+        phase_ = numbers.at(numbers.per_shift() + 1);
+    }
     Shift at(double time) const override {
         // d(t) = A (sin(2 pi t/T + phase) - sin(phase)): zero at t = 0 whatever the phase.
         const double angle = 2.0 * pi * time / period_ + phase_;
@@ -61,8 +72,8 @@ class Harmonic final : public PrescribedMotion {
 
  private:
     Shift amplitude_;
-    double period_;
-    double phase_;
+    double period_ = 1.0;
+    double phase_ = 0.0;
 };
 
 /// `table T X Y ANGLE T X Y ANGLE ...`, with times ascending from 0.
@@ -116,15 +127,18 @@ Moved motion_of(const std::string& text, const std::string& key, int dimension) 
     std::int64_t what = 0;
     std::string kind;
     in >> what >> kind;
-    Numbers numbers{{}, dimension};
-    for (double number; in >> number;) numbers.all.push_back(number);
-    for (const MotionEntry& entry : motion_list)
-        // eof: all of the text was numbers. A word between them would have stopped the reading
-        // before.
-        if (kind == entry.kind && in.eof()) return {what, entry.make(numbers)};
-    throw std::invalid_argument(
-        key + ": \"" + text +
-        "\" is not a motion: allowed are constant, harmonic and table with their numbers");
+    const auto refuse = [&](const std::string& fault) {
+        throw std::invalid_argument(key + ": \"" + text + "\" is not a motion: " + fault);
+    };
+    try {
+        const Numbers numbers{remaining_numbers(in), dimension};
+        for (const MotionEntry& entry : motion_list)
+            if (kind == entry.kind) return {what, entry.make(numbers)};
+    } catch (const std::invalid_argument& fault) {
+        refuse(fault.what());
+    }
+    refuse("allowed are constant, harmonic and table with their numbers");
+    return {};
 }
 
 }  // namespace

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Prescribed motions of the sides of the box, of walls inside it and of grains, from the resolved
-// case (written by launcher/case/wall_motion), for grains and fluid alike:
-//
-//     run.wall_motions     `WALL KIND NUMBERS...` in run units, separated by `;`
-//     run.inflow_motions   the same for the fluid that enters through sides `inflow`
-//     run.grain_motions    `ID KIND NUMBERS...` of grains that follow a motion
-//
-//     constant VX VY SPIN              in space  VX VY VZ WX WY WZ
-//     harmonic X Y ANGLE PERIOD PHASE            X Y Z AX AY AZ PERIOD PHASE
-//     table T X Y ANGLE ...                      T X Y Z AX AY AZ ...
-//
-// A turn of space keeps its axis: (AX, AY, AZ) is its direction times an angle. A motion is a
-// displacement d(t) and an angle a(t) about a pivot, of a grain its centre, both zero at t = 0:
-//
-//     constant   d = v t                                             a = w t
-//     harmonic   d = A (sin(2 pi t/T + phase) - sin(phase))          a likewise
-//     table      linear between its entries; constant after the last
-//
-// In a window a wall or grain has the mean velocity of its motion, (d(t + dt) - d(t))/dt, so that
-// it is at its prescribed position at the end of every window, and so has the fluid there. Valid
-// C++17.
+/// \file
+/// Prescribed motions of the sides of the box, of walls inside it and of grains, from the resolved
+/// case (written by launcher/case/wall_motion), for grains and fluid alike:
+///
+///     run.wall_motions     `WALL KIND NUMBERS...` in run units, separated by `;`
+///     run.inflow_motions   the same for the fluid that enters through sides `inflow`
+///     run.grain_motions    `ID KIND NUMBERS...` of grains that follow a motion
+///
+///     constant VX VY SPIN              in space  VX VY VZ WX WY WZ
+///     harmonic X Y ANGLE PERIOD PHASE            X Y Z AX AY AZ PERIOD PHASE
+///     table T X Y ANGLE ...                      T X Y Z AX AY AZ ...
+///
+/// A turn of space keeps its axis: (AX, AY, AZ) is its direction times an angle. A motion is a
+/// displacement d(t) and an angle a(t) about a pivot, of a grain its centre, both zero at t = 0:
+///
+///     constant   d = v t                                             a = w t
+///     harmonic   d = A (sin(2 pi t/T + phase) - sin(phase))          a likewise
+///     table      linear between its entries; constant after the last
+///
+/// In a window a wall or grain has the mean velocity of its motion, (d(t + dt) - d(t))/dt, so that
+/// it is at its prescribed position at the end of every window, and so has the fluid there. Valid
+/// C++17.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +33,7 @@
 
 namespace turbidite {
 
+/// Where a wall or grain is to be, as a function of time.
 class PrescribedMotion {
  public:
     virtual ~PrescribedMotion() = default;
@@ -54,6 +55,7 @@ struct Moved {
 /// text has another format.
 std::vector<Moved> motions_of(const Settings& settings, const char* key);
 
+/// At constant rates from t = 0 on.
 std::shared_ptr<const PrescribedMotion> constant_motion(const Twist& rate);
 
 }  // namespace turbidite

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// What a program of the job says of itself. The program may be anybody's: its exit code is taken
-// for one of ours only if it is one, and its texts are made fit for the record, which is UTF-8, and
-// for a terminal, which obeys control characters. Valid C++17.
+/// \file
+/// What a program of the job says of itself. The program may be anybody's: its exit code is taken
+/// for one of ours only if it is one, and its texts are made fit for the record, which is UTF-8,
+/// and for a terminal, which obeys control characters. Valid C++17.
 #pragma once
 
 #include <cstdint>

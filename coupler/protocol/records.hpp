@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Grain data exchanged by the participants, as named fields with units.
-//
-// Units are the run's: SI for `scales.kind: physical`, otherwise D = u_c = rho_f = 1.
-// In two dimensions masses, forces and impulses are per unit length out of the plane, z components
-// of vectors are zero, and only the z component of angular quantities is used.
-//
-// Valid C++17: the OpenFOAM adapter includes this header.
+/// \file
+/// Grain data exchanged by the participants, as named fields with units.
+///
+/// Units are the run's: SI for `scales.kind: physical`, otherwise D = u_c = rho_f = 1.
+/// In two dimensions masses, forces and impulses are per unit length out of the plane, z components
+/// of vectors are zero, and only the z component of angular quantities is used.
+///
+/// Valid C++17: the OpenFOAM adapter includes this header.
 #pragma once
 
 #include <array>
@@ -21,6 +21,7 @@
 
 namespace turbidite {
 
+/// Number of a grain, unique in a run.
 using GrainId = std::int64_t;
 
 /// A rigid body at one instant.
@@ -30,21 +31,22 @@ using GrainId = std::int64_t;
 struct GrainState {
     GrainId id = 0;
     std::int32_t shape = 0;     ///< index into ShapeTable
-    std::int32_t material = 0;  ///< 0: the coefficients of contact.*; 1: first of run.materials
+    std::int32_t material = 0;  ///< 0: coefficients of `contact`; 1: first of run.materials
     bool prescribed = false;    ///< keeps its velocity and spin whatever forces act on it
     double radius = 0.0;        ///< circumscribed radius R [m]
     double density = 0.0;       ///< rho_s [kg/m3]
     Vec3 position{};            ///< q [m]
+    /// (w, x, y, z) of length 1, body axes to world axes; in the plane a turn about z.
     Quaternion orientation{1.0, 0.0, 0.0, 0.0};
-    Vec3 velocity{};                 ///< U [m/s]
-    Vec3 angular_velocity{};         ///< omega [rad/s]
-    Vec3 contact_impulse{};          ///< sum of the window's contact impulses J_c [N s]
-    Vec3 contact_angular_impulse{};  ///< their moment about the centre [N m s]
-    Vec3 announced_impulse{};        ///< J_h: fluid impulse already spent in sub-steps [N s]
-    Vec3 announced_angular_impulse{};
+    Vec3 velocity{};                   ///< U of the centre [m/s]
+    Vec3 angular_velocity{};           ///< omega, world axes [rad/s]
+    Vec3 contact_impulse{};            ///< sum of the window's contact impulses J_c [N s]
+    Vec3 contact_angular_impulse{};    ///< their moment about the centre [N m s]
+    Vec3 announced_impulse{};          ///< J_h: fluid impulse already spent in sub-steps [N s]
+    Vec3 announced_angular_impulse{};  ///< its moment about the centre [N m s]
 };
 
-/// What step 5 does to a grain over one window (Topin 2011, Eqs. 9-10).
+/// What step 5 does to a grain over one window (Topin 2011, Equations 9 and 10).
 ///
 /// The fluid fills in velocities and multiplier impulses; the hub adds force and torque
 /// (hub/kick_rule).
@@ -84,33 +86,35 @@ struct FreeResponse {
     double mismatch = 0.0;
 };
 
-/// A shape known to both sides by its index. `kind` is a name of shapes/shape_list.
+/// A shape known to both sides by its index.
 struct ShapeRecord {
-    std::string kind;              ///< "disc"
+    std::string kind;              ///< disc, triangle, polygon or sphere
     std::vector<double> vertices;  ///< x,y[,z] of unit circumradius; empty for round shapes
 };
+/// GrainState::shape counts in it.
 using ShapeTable = std::vector<ShapeRecord>;
 
 /// The message that opens a window.
 struct Window {
-    std::int64_t index = 0;     ///< 0-based
+    std::int64_t index = 0;     ///< from 0 on; goes on in a resumed run
     double time = 0.0;          ///< t^n at its start [s]
     double step = 0.0;          ///< dt [s]
     bool write_output = false;  ///< fields and series are due at its end
 };
 
 /// Report of the contact side. Values an adapter does not have stay empty: codes with springs have
-/// no residual.
+/// no residual. No number is negative or not finite; film_work may be negative.
 struct ContactReport {
     std::int64_t contacts = 0;       ///< with an impulse
     std::int64_t iterations = 0;     ///< sweeps of the contact solver; sub-steps of native_substeps
     std::optional<double> residual;  ///< scaled natural map
-    bool converged = true;
-    double max_penetration = 0.0;  ///< deepest overlap, >= 0 [m]
-    std::int64_t removed = 0;      ///< grains that left through a free side in this window
-    double wall_seconds = 0.0;     ///< time in the adapter's own work
-    /// Quad and Max: the change by one more update of every contact (nscd/problem/residual.hpp).
+    bool converged = true;           ///< within the tolerance of the contact solver
+    double max_penetration = 0.0;    ///< deepest overlap of the window, 0 or more [m]
+    std::int64_t removed = 0;        ///< grains that left through a free side in this window
+    double wall_seconds = 0.0;       ///< time in the adapter's own work
+    /// Quad: the change by one more update of every contact, relative, quadratic mean.
     std::optional<double> quad;
+    /// Max: the largest such change.
     std::optional<double> max;
     /// With the state: how far the velocities at the end of the window are from the contact
     /// conditions, max |min(u_n + b_n, W_nn r_n)| over the contact points [m/s].
@@ -131,8 +135,8 @@ struct ContactStatus {
 /// in the last sub-step for others.
 ///
 /// A pair that touches along an edge has several records, distinguished by `feature`. With several
-/// grains ranks, one of them reports the contact. Attraction (cohesion) has impulse .
-/// normal < 0.
+/// grains ranks, one of them reports the contact. With attraction (cohesion) the product of impulse
+/// and normal is negative.
 struct ContactRecord {
     GrainId a = 0;           ///< the smaller id; undefined at a wall
     GrainId b = 0;           ///< the larger id, or the grain at the wall
@@ -158,10 +162,10 @@ inline bool contact_before(const ContactRecord& x, const ContactRecord& y) {
 
 /// What a grains rank sends: its grains and the report of the contact side.
 struct Motion {
-    std::vector<GrainState> grains;
+    std::vector<GrainState> grains;  ///< in any order
     ContactReport report;
-    /// Sent with the state at the end of windows with output, by adapters that can report contacts;
-    /// otherwise empty, which is not the same as no contacts.
+    /// Sent with the state at the end of windows with output, by adapters that can report contacts,
+    /// on all ranks or none; otherwise empty, which is not the same as no contacts.
     std::optional<std::vector<ContactRecord>> contacts = {};
 };
 
@@ -177,8 +181,8 @@ struct SplittingReport {
 
 /// Report of the fluid side.
 struct FluidReport {
-    std::int64_t multiplier_iterations = 0;
-    double multiplier_residual = 0.0;   ///< rms slip at the points [m/s]
+    std::int64_t multiplier_iterations = 0;  ///< of all solves of the window
+    double multiplier_residual = 0.0;        ///< rms slip at the points [m/s]
     bool multipliers_converged = true;  ///< all solves of the window, within the iteration limit
     double divergence = 0.0;            ///< max |div phi| after step 1 [1/s]
     double final_divergence =
@@ -186,7 +190,7 @@ struct FluidReport {
     /// |change of fluid momentum + dt sum(lambda) - boundary impulses| over the largest of them:
     /// zero to solver tolerance.
     double momentum_defect = 0.0;
-    double courant = 0.0;
+    double courant = 0.0;                           ///< largest Courant number of the window
     std::optional<SplittingReport> splitting = {};  ///< empty with marchuk-yanenko
     Vec3 mean_velocity{};       ///< of the whole box, cells in grains included [m/s]
     double wall_seconds = 0.0;  ///< time in the adapter's own work, all steps
@@ -197,14 +201,14 @@ struct FluidReport {
 
 /// Answer of a fluid rank to a Motion: kicks of the grains whose centre it owns.
 struct Kicks {
-    std::vector<Kick> kicks;
+    std::vector<Kick> kicks;  ///< in any order
     FluidReport report;
 };
 
 /// The part of space that a fluid rank is responsible for [m].
 struct Box {
-    Vec3 lower{};
-    Vec3 upper{};
+    Vec3 lower{};  ///< corner
+    Vec3 upper{};  ///< opposite corner
 };
 
 }  // namespace turbidite

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Files of a run folder that several programs of the job write. Valid C++17.
+/// \file
+/// Files of a run folder that several programs of the job write. Valid C++17.
 #pragma once
 
 #include <filesystem>
@@ -28,12 +28,14 @@ struct FirstEnd {
 
 /// Does nothing if another program was first. Returns whether this one was.
 bool write_first_end(const std::filesystem::path& run, const FirstEnd& end);
-/// Mended (received.hpp), since any program may have written it.
+/// Empty if nobody has written one. Mended (received.hpp), since any program may have written it.
 std::optional<FirstEnd> read_first_end(const std::filesystem::path& run);
 
-/// Files by which a user asks something of a run (hub/requests.hpp), in its folder.
+/// A file in the run folder by which a user asks the run to stop in order.
 inline constexpr const char* stop_file = "STOP";
+/// The same, to write its output now.
 inline constexpr const char* write_file = "WRITE";
+/// The same, to write a checkpoint now.
 inline constexpr const char* checkpoint_file = "CHECKPOINT";
 
 /// Set for a program started by turbidite-member, which has opened its log, to the file in which

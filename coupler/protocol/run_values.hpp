@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// The values of a run that several programs need, read from its settings once by each: units,
-// physics, windows, periods. Keys that only one program knows are read by that program.
-//
-// Valid C++17.
+/// \file
+/// The values of a run that several programs need, read from its settings once by each: units,
+/// physics, windows, periods. Keys that only one program knows are read by that program.
+///
+/// Valid C++17.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 
 namespace turbidite {
 
+/// As run_values() reads them.
 struct RunValues {
     int dimension = 2;  ///< 2: the plane, per unit length; 3: space
 

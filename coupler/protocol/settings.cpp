@@ -5,6 +5,8 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "coupler/protocol/number_text.hpp"
+
 namespace turbidite {
 namespace {
 
@@ -17,13 +19,9 @@ auto position(Entries& entries, const std::string& key) {
 
 template <class T>
 T parse(const std::string& key, const std::string& value, const char* kind) {
-    T result{};
-    const char* end = value.data() + value.size();
-    // The whole text must be the number: "0.5x" is none.
-    const auto [stop, error] = std::from_chars(value.data(), end, result);
-    if (error != std::errc() || stop != end)
-        throw std::invalid_argument(key + " = \"" + value + "\" is not " + kind);
-    return result;
+    const std::optional<T> number = number_of<T>(value);
+    if (!number) throw std::invalid_argument(key + " = \"" + value + "\" is not " + kind);
+    return *number;
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// The sides of the box, in the order of their keys: the only table of them. A side lies across an
-// axis, at 0 (its inward normal points along the axis) or at the size of the box (against it).
-// Opposite sides follow each other. The plane has the first four. Valid C++17.
+/// \file
+/// The sides of the box, in the order of their keys: the only table of them. A side lies across an
+/// axis, at 0 (its inward normal points along the axis) or at the size of the box (against it).
+/// Opposite sides follow each other. The plane has the first four. Valid C++17.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 
 namespace turbidite {
 
+/// One side of the box.
 struct BoxSide {
     const char* name;
     const char* key;  ///< its type: wall, free, cyclic or inflow
@@ -27,6 +28,7 @@ struct BoxSide {
     }
 };
 
+/// All of them: left, right, bottom, top, in space front and back.
 inline constexpr std::array<BoxSide, 6> box_sides = {{
     {"left", "domain.left", 0, 1.0},
     {"right", "domain.right", 0, -1.0},
@@ -40,6 +42,7 @@ inline constexpr std::array<BoxSide, 6> box_sides = {{
 constexpr std::size_t side_count(int dimension) {
     return 2 * static_cast<std::size_t>(dimension);
 }
+/// 4.
 inline constexpr std::size_t planar_sides = side_count(2);
 
 /// Whether the plane has it.
@@ -47,6 +50,7 @@ constexpr bool is_planar(const BoxSide& side) {
     return side.axis < 2;
 }
 
+/// The place in box_sides of the side across.
 constexpr std::size_t opposite(std::size_t side) {
     return side ^ 1;
 }

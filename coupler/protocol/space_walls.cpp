@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/protocol/space_walls.hpp"
 
-#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "coupler/protocol/number_text.hpp"
 #include "coupler/protocol/plates.hpp"
 
 namespace turbidite {
@@ -17,13 +17,12 @@ constexpr std::size_t numbers_per_wall = 23;  // after id and kind
     throw std::invalid_argument("run.walls: \"" + text + "\" " + fault);
 }
 
-/// With strtod, since streams do not read every format that is written.
 std::vector<double> numbers_of(const std::string& text, std::istringstream& words) {
     std::vector<double> numbers;
-    for (std::string word; words >> word;) {
-        char* end = nullptr;
-        numbers.push_back(std::strtod(word.c_str(), &end));
-        if (end == word.c_str() || *end != '\0') refuse(text, "has no number \"" + word + "\"");
+    try {
+        numbers = remaining_numbers(words);
+    } catch (const std::invalid_argument& fault) {
+        refuse(text, fault.what());
     }
     if (numbers.size() != numbers_per_wall)
         refuse(text, "has " + std::to_string(numbers.size()) + " numbers after its kind, not " +

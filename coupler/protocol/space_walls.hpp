@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Walls inside the box in space: plates and round shells with grains on both sides, which are at
-// rest or follow a prescribed motion. From the resolved case (written by
-// launcher/case/walls/space_walls):
-//
-//     run.walls   `ID KIND X Y Z AX AY AZ BX BY BZ R1 R2 THICKNESS VX VY VZ WX WY WZ PX PY PZ
-//                 FRICTION MATERIAL` in run units, separated by `;`
-//
-//     plate       the rectangle with the corner (X, Y, Z) and the edges A and B
-//     cylinder    around the axis from (X, Y, Z) to its sum with A, of radius R1
-//     cone        the same, of radius R1 at its beginning and R2 at its end
-//     ring        about the axis A through (X, Y, Z) and normal to it, from radius R1 to R2
-//
-// MATERIAL is an index as of grains, or -1: then contacts have the coefficients of the grain and
-// FRICTION. Motions as of plates of the plane (plates.hpp). Valid C++17.
+/// \file
+/// Walls inside the box in space: plates and round shells with grains on both sides, which are at
+/// rest or follow a prescribed motion. From the resolved case (written by
+/// launcher/case/walls/space_walls):
+///
+///     run.walls   `ID KIND X Y Z AX AY AZ BX BY BZ R1 R2 THICKNESS VX VY VZ WX WY WZ PX PY PZ
+///                 FRICTION MATERIAL` in run units, separated by `;`
+///
+///     plate       the rectangle with the corner (X, Y, Z) and the edges A and B
+///     cylinder    around the axis from (X, Y, Z) to its sum with A, of radius R1
+///     cone        the same, of radius R1 at its beginning and R2 at its end
+///     ring        about the axis A through (X, Y, Z) and normal to it, from radius R1 to R2
+///
+/// MATERIAL is an index as of grains, or -1: then contacts have the coefficients of the grain and
+/// FRICTION. Motions as of plates of the plane (plates.hpp). Valid C++17.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,7 @@
 
 namespace turbidite {
 
+/// See the head of this file.
 enum class SpaceWallKind { plate, cylinder, cone, ring };
 
 /// The kinds by their names.
@@ -31,9 +32,10 @@ struct SpaceWallName {
     const char* name;
     SpaceWallKind kind;
 };
+/// All of them.
 const std::vector<SpaceWallName>& space_wall_names();
 
-/// At t = 0, and its motion.
+/// A wall inside the box, at t = 0, and its motion.
 struct SpaceWall {
     std::int32_t key = 0;  ///< of the wall, after those of the sides of the box
     SpaceWallKind kind = SpaceWallKind::plate;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// The values of `fluid.splitting` (docs/splittings.md). Valid C++17.
+/// \file
+/// The values of `fluid.splitting` (docs/splittings.md). Valid C++17.
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 
 namespace turbidite {
 
+/// One value of `fluid.splitting` and what it does.
 struct Splitting {
     const char* name;
     const char* help;
@@ -18,6 +19,7 @@ struct Splitting {
     bool iterated;      ///< that correction goes on until it is within a tolerance
 };
 
+/// All of them.
 inline constexpr std::array<Splitting, 3> splittings = {{
     {"marchuk-yanenko", "as in Topin et al. 2011", false, false},
     {"explicit-multiplier", "carries pressure and contacts, corrects them once with rigid grains",

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// How far every program of a job has come in its start, and whether it ends: RUN/logs/starts/
-// ROLE.RANK, one file per rank. turbidite-member writes who it is and the library a line for each
-// step, so that a program that never joins or never leaves can be named: those that wait for it in
-// MPI_Init, in the split of the world or in MPI_Finalize cannot ask. Valid C++17.
+/// \file
+/// How far every program of a job has come in its start, and whether it ends: RUN/logs/starts/
+/// ROLE.RANK, one file per rank. turbidite-member writes who it is and the library a line for each
+/// step, so that a program that never joins or never leaves can be named: those that wait for it in
+/// MPI_Init, in the split of the world or in MPI_Finalize cannot ask. Valid C++17.
 #pragma once
 
 #include <filesystem>
@@ -20,6 +20,7 @@ namespace turbidite {
 /// wait in it for the others.
 enum class StartStep { none, mpi_init, split, announcement, end };
 
+/// What is known of one rank of a program that has been started.
 struct StartRecord {
     Role role = Role::grains;
     int rank = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// The files of a checkpoint: written whole, with a checksum, and on the disk before anybody relies
-// on them. Valid C++17.
+/// \file
+/// The files of a checkpoint: written whole, with a checksum, and on the disk before anybody relies
+/// on them. Valid C++17.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,7 @@ struct StoredFile {
     std::int64_t crc32 = 0;  ///< as of zlib, gzip, PNG
 };
 
+/// As of StoredFile.
 std::int64_t crc32_of(const Bytes& bytes);
 
 /// Whether a file of this name lies in its folder, whoever has chosen it: no path, no control
@@ -62,7 +63,7 @@ class PieceReader {
     /// Bytes from `begin` on. Throws Failure (bad input) naming the file if it does not have them.
     void read(std::size_t begin, void* to, std::size_t bytes);
 
-    Bytes all();
+    Bytes all();  ///< the whole content
 
  private:
     struct Open;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// What each rank did when, as a trace that Perfetto (ui.perfetto.dev) and chrome://tracing open:
-// the JSON array form of the trace event format, whose closing bracket may be missing, so that the
-// file of a killed run is as good as that of one that ended.
-//
-//     RUN/timeline/HOST.json      all ranks on that host, on its clock
-//
-// Processes append whole lines. Nothing is written any more once the file has 64 MB. Valid C++17.
+/// \file
+/// What each rank did when, as a trace that Perfetto (ui.perfetto.dev) and chrome://tracing open:
+/// the JSON array form of the trace event format, whose closing bracket may be missing, so that the
+/// file of a killed run is as good as that of one that ended.
+///
+///     RUN/timeline/HOST.json      all ranks on that host, on its clock
+///
+/// Processes append whole lines. Nothing is written any more once the file has 64 MB. Valid C++17.
 #pragma once
 
 #include <chrono>
@@ -18,6 +18,7 @@
 
 namespace turbidite {
 
+/// One rank's part of the trace.
 class Timeline {
  public:
     enum class Part { compute, wait, transfer };

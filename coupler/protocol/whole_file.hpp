@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Files that may be read at any time during a run.
+/// \file
+/// Files that may be read at any time during a run.
 #pragma once
 
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Records as bytes. Little-endian, eight bytes per number, doubles bit for bit, strings and lists
-// prefixed by their length. One `encode` and one `decode` per record; nothing else depends on
-// offsets. Valid C++17.
+/// \file
+/// Records as bytes. Little-endian, eight bytes per number, doubles bit for bit, strings and lists
+/// prefixed by their length. One `encode` and one `decode` per record; nothing else depends on
+/// offsets. Valid C++17.
 #pragma once
 
 #include <cstring>
@@ -17,6 +17,7 @@
 
 namespace turbidite {
 
+/// A payload or a frame.
 using Bytes = std::vector<char>;
 
 /// Bytes that belong to somebody else: the payload inside a frame.
@@ -34,6 +35,7 @@ class MalformedPayload : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Appends numbers and texts to a payload.
 class Writer {
  public:
     explicit Writer(Bytes& out) : out_(out) {}
@@ -57,6 +59,8 @@ class Writer {
     Bytes& out_;
 };
 
+/// Takes numbers and texts from a payload, in the order in which they were written. Throws
+/// MalformedPayload where it ends too early.
 class Reader {
  public:
     explicit Reader(View in) : in_(in) {}
@@ -95,6 +99,8 @@ struct MotionShare {
     std::vector<GrainState> grains() const;
 };
 
+/// The payload of a record.
+/// @{
 Bytes encode(const Hello&);
 Bytes encode(const Settings&);
 Bytes encode(const ShapeTable&);
@@ -105,12 +111,14 @@ Bytes encode(const Kicks&);
 Bytes encode(const std::vector<FreeResponse>&);
 Bytes encode(const Box&);
 Bytes encode(const std::string&);
+/// @}
 
-/// Throws MalformedPayload.
+/// The record in a payload. Throws MalformedPayload.
 template <class Record>
 Record decode(View);
 
-// The same behind what is already there, for the records that are long.
+/// encode() behind what is already there, for the records that are long.
+/// @{
 void append(Bytes& out, const Motion&);
 void append(Bytes& out, const MotionShare&);
 void append(Bytes& out, const Kicks&);
@@ -120,5 +128,6 @@ void append(Bytes& out, const Record& record) {
     const Bytes bytes = encode(record);
     out.insert(out.end(), bytes.begin(), bytes.end());
 }
+/// @}
 
 }  // namespace turbidite

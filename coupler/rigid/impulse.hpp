@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Impulses on a rigid body. Valid C++17.
+/// \file
+/// Impulses on a rigid body. Valid C++17.
 #pragma once
 
 #include "coupler/rigid/vec3.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// How a rigid body moves: its rates, and where they take it. Valid C++17.
+/// \file
+/// How a rigid body moves: its rates, and where they take it. Valid C++17.
 #pragma once
 
 #include "coupler/rigid/rotation.hpp"

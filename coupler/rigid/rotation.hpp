@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Rotations in space, by a unit quaternion q = (w, v) or by a rotation vector, whose direction is
-// the axis and whose length is the angle:
-//
-//     R(q) = 1 + 2 w [v]x + 2 [v]x [v]x                       quaternion
-//     q(a) = (cos |a|/2, sin |a|/2 a/|a|)                     rotation vector a
-//     R(a) = cos |a| 1 + sin |a| [e]x + (1 - cos |a|) e e^T   e = a/|a| (Rodrigues)
-//
-// In the plane, where only z of v and a is not zero, these are cosine and sine of the angle to the
-// last digit. Valid C++17.
+/// \file
+/// Rotations in space, by a unit quaternion q = (w, v) or by a rotation vector, whose direction is
+/// the axis and whose length is the angle:
+///
+///     R(q) = 1 + 2 w [v]x + 2 [v]x [v]x                       quaternion
+///     q(a) = (cos |a|/2, sin |a|/2 a/|a|)                     rotation vector a
+///     R(a) = cos |a| 1 + sin |a| [e]x + (1 - cos |a|) e e^T   e = a/|a| (Rodrigues)
+///
+/// In the plane, where only z of v and a is not zero, these are cosine and sine of the angle to the
+/// last digit. Valid C++17.
 #pragma once
 
 #include "coupler/rigid/vec3.hpp"
@@ -24,6 +24,7 @@ struct Rotation {
     Vec3 back(const Vec3& v) const { return v[0] * x + v[1] * y + v[2] * z; }
 };
 
+/// By a unit quaternion.
 inline Rotation rotation(const Quaternion& q) {
     const double w = q[0], x = q[1], y = q[2], z = q[3];
     return {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
@@ -60,6 +61,7 @@ inline Quaternion product(const Quaternion& p, const Quaternion& q) {
             p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0]};
 }
 
+/// The inverse of a unit quaternion.
 inline Quaternion conjugate(const Quaternion& q) {
     return {q[0], -q[1], -q[2], -q[3]};
 }

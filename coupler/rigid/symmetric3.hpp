@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Symmetric 3 x 3 matrices: moments of inertia and their inverses. Valid C++17.
+/// \file
+/// Symmetric 3 x 3 matrices: moments of inertia and their inverses. Valid C++17.
 #pragma once
 
 #include "coupler/rigid/rotation.hpp"
 
 namespace turbidite {
 
+/// The six entries of a symmetric matrix.
 struct Symmetric3 {
     double xx = 0.0, yy = 0.0, zz = 0.0;
     double xy = 0.0, xz = 0.0, yz = 0.0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Vectors and quaternions as the plain numbers that the records hold: no type with alignment
-// requirements appears in an interface, and no header of Eigen in a host that has its own. In the
-// plane z is zero; what the operations add for it changes no digit of x and y. Valid C++17.
+/// \file
+/// Vectors and quaternions as the plain numbers that the records hold: no type with alignment
+/// requirements appears in an interface, and no header of Eigen in a host that has its own. In the
+/// plane z is zero; what the operations add for it changes no digit of x and y. Valid C++17.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace turbidite {
 
-using Vec3 = std::array<double, 3>;
-using Quaternion = std::array<double, 4>;  // w, x, y, z; unit
+using Vec3 = std::array<double, 3>;        ///< x, y, z
+using Quaternion = std::array<double, 4>;  ///< w, x, y, z; unit
 
 inline Vec3 operator+(const Vec3& a, const Vec3& b) {
     return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
@@ -42,6 +42,7 @@ inline double cross_z(const Vec3& a, const Vec3& b) {
     return a[0] * b[1] - a[1] * b[0];
 }
 
+/// Its length.
 inline double norm(const Vec3& a) {
     return std::sqrt(dot(a, a));
 }

@@ -6,7 +6,7 @@
 //     mass c M, inertia c I, weight c M g
 //
 // since the fluid that fills the fictitious domain already carries rho_f/rho_s of the grain's
-// inertia. With a hydrodynamic radius R_h < R the multipliers fill only V(R_h):
+// inertia. With a hydrodynamic radius R_h the multipliers fill V(R_h):
 //
 //     effective mass      M - rho_f V(R_h)         effective inertia   I - I_f(R_h)
 //     submerged weight    (M - rho_f V(R)) g       (buoyancy acts on the true volume)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Sends frames between the coupler and the ranks of one participant. A channel never blocks:
-// sending queues, receiving probes; waiting is done in `Patience` below. Valid C++17.
+/// \file
+/// Sends frames between the coupler and the ranks of one participant. A channel never blocks:
+/// sending queues, receiving probes; waiting is done in `Patience` below. Valid C++17.
 #pragma once
 
 #include <chrono>
@@ -11,8 +11,10 @@
 
 namespace turbidite {
 
+/// One end of the connection between the coupler and the ranks of a participant.
 class Channel {
  public:
+    /// A message as it came, and the rank that sent it.
     struct Frame {
         int peer = 0;
         Bytes bytes;
@@ -48,7 +50,7 @@ class Patience {
     /// One poll or sleep.
     void wait(bool in_transit = false);
 
-    double seconds() const;
+    double seconds() const;  ///< waited so far
 
  private:
     Clock::time_point start_ = Clock::now();

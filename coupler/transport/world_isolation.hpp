@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// A layer between MPI and a host code that assumes it owns MPI_COMM_WORLD: the calls in
-// `world_isolation.cpp` use the communicator set here. Linked ahead of libmpi (or preloaded), it
-// lets an unchanged OpenFOAM take part in a job of several programs. Valid C++17.
+/// \file
+/// A layer between MPI and a host code that assumes it owns MPI_COMM_WORLD: the calls in
+/// `world_isolation.cpp` use the communicator set here. Linked ahead of libmpi (or preloaded), it
+/// lets an unchanged OpenFOAM take part in a job of several programs. Valid C++17.
 #pragma once
 
 #include <mpi.h>

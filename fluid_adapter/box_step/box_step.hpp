@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Steps 1 to 3 of a window on the layers of a box (box_layers.hpp), uniform or with rows of
-// different heights (row_heights.hpp; Topin 2011, section 2.2), on contiguous arrays of the
+// different heights (row_heights.hpp; Topin 2011, section 2.1.2), on contiguous arrays of the
 // components of u. The results equal those of OpenFOAM's operators (foam_app/operatorStep.hpp) to
 // rounding:
 //

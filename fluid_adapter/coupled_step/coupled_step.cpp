@@ -40,28 +40,31 @@ void CoupledStep::place_grains(const Constraint& constraint) {
 }
 
 /// Conjugate directions need W to be symmetric, which it is as far as the slip is reduced: 1e-2 is
-/// enough where viscosity reaches less than a cell per window, and stagnates at nu dt/h2 = 3.
+/// enough where viscosity reaches less than a cell per window, and stagnates at nu dt/h2 = 3 in the
+/// plane.
 double CoupledStep::slip_reduction() const {
-    constexpr double little_viscosity = 0.2;  // nu dt/h2
-    return viscous_number() < little_viscosity ? 1e-2 : 1e-3;
+    constexpr double little_viscosity = 1.6;  // nu dt/h2 = 0.2 in the plane
+    return shortest_waves() < little_viscosity ? 1e-2 : 1e-3;
 }
 
-/// nu dt/h2
-double CoupledStep::viscous_number() const {
-    return step_.viscosity() * dt_ / step_.cell_area();
+/// Of -dt nu L, its largest eigenvalue: 4 nu dt/h2 for each axis.
+double CoupledStep::shortest_waves() const {
+    const double viscous_number = step_.viscosity() * dt_ / step_.cell_area();  // nu dt/h2
+    return 4.0 * box_.components() * viscous_number;
 }
 
 bool CoupledStep::one_viscous_iteration_will_do() const {
     // There the correction leaves a twentieth of the shortest waves (below).
-    return viscous_number() <= 0.05;
+    return shortest_waves() <= 0.4;
 }
 
-/// The predicted f is explicit in time: it has the shortest waves 8 nu dt/h2 times too strong, of
-/// which at most half may remain. One iteration leaves a twentieth up to nu dt/h2 = 0.05.
+/// The predicted f is explicit in time: it has the shortest waves that many times too strong, of
+/// which at most half may remain. One iteration leaves a twentieth up to 0.4, nu dt/h2 = 0.05 in
+/// the plane.
 IterationLimit CoupledStep::one_viscous_correction(int most) const {
     if (one_viscous_iteration_will_do()) return {1, 0.0, 0.1};
-    // A tenth of the residual, or half of 1/(8 nu dt/h2) of it where that is less.
-    return {most, 0.0, std::min(0.1, 0.5 / (8.0 * viscous_number()))};
+    // A tenth of the residual, or half of the part that they may keep of it where that is less.
+    return {most, 0.0, std::min(0.1, 0.5 / shortest_waves())};
 }
 
 CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& given) {

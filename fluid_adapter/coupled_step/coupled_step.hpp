@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // A window in which pressure and viscosity know that grains are rigid, instead of steps 1, 3 and 5
-// one after the other (Topin 2011, section 2.2). With W the constraint of the grains
+// one after the other (Topin 2011, section 2.1.2). With W the constraint of the grains
 // (rigid_grains.hpp), u^n rigid and nearly solenoidal, P^n the grains' momenta with their weight
 // and the contact impulses of the last window:
 //
@@ -23,7 +23,8 @@ namespace turbidite {
 
 struct CoupledLimits {
     /// To the tolerances. Otherwise one iteration of pressure, and viscosity, within its limit of
-    /// iterations, to a tenth of what was missing, or less where nu dt/h2 exceeds 0.625.
+    /// iterations, to a tenth of what was missing, or less where that of the shortest waves would
+    /// stay too strong.
     bool iterated = false;
     IterationLimit viscosity;  ///< tolerance: rms of the missing viscous acceleration [m/s2]
     IterationLimit pressure;   ///< tolerance: rms of div [1/s]
@@ -71,7 +72,7 @@ class CoupledStep {
  private:
     bool correct_viscosity(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);
     bool correct_pressure(RigidGrains& grains, const CoupledLimits& limits, CoupledReport& report);
-    double viscous_number() const;
+    double shortest_waves() const;
     bool one_viscous_iteration_will_do() const;
     double slip_reduction() const;
     IterationLimit one_viscous_correction(int most) const;

@@ -7,7 +7,7 @@
 //
 // by conjugate gradients on p from an earlier one: residual r = -(D u + div e), preconditioned by
 // the fluid's own pressure solve -(1/dt) laplacian^-1, which is exact without grains. The operator
-// -dt (D W G + smoothing) is symmetric and not negative. p and e are the step's. Valid C++17.
+// dt (smoothing - D W G) is symmetric and not negative. p and e are the step's. Valid C++17.
 #pragma once
 
 #include "fluid_adapter/box_step/box_step.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// One window of the fluid, step by step as in the paper (Topin 2011, section 2.2):
+// One window of the fluid, step by step as in the paper (Topin 2011, section 2.1.2):
 //
 //     project     1  pressure projection: u becomes divergence-free   }
 //     transport   2  convection of u                                  }  advance

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The fluid participant on OpenFOAM: the functions of an adapter, by the steps of a window (Topin
-// 2011, section 2.2). No OpenFOAM type appears here, so that tests can use it.
+// 2011, section 2.1.2). No OpenFOAM type appears here, so that tests can use it.
 #pragma once
 
 #include <filesystem>

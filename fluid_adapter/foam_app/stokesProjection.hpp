@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Step 1, degenerate Stokes (Topin 2011, section 2.2): the divergence-free velocity closest to u,
+// Step 1, degenerate Stokes (Topin 2011, section 2.1.2): the divergence-free velocity closest to u,
 //
 //     (u1 - u)/dt + grad p = 0,   div u1 = 0        p: over rho_f
 //

@@ -4,7 +4,7 @@
 // by a constant share, Coulomb friction. With the reduced mass m_r of two grains, or the mass of a
 // grain at a wall,
 //
-//     k = m_r w^2,  c = 2 zeta m_r w      so that all contacts of round grains last pi/w
+//     k = m_r w^2,  c = 2 zeta m_r w      so that all contacts of round grains last pi/w undamped
 #pragma once
 
 #include "coupler/protocol/settings.hpp"

@@ -3,8 +3,8 @@
 // Free velocities and mobilities of a contact problem from the fluid's responses for free grains,
 // in the order of the bodies. In space the mobility is that of a sphere: of the effective inertia
 // A it takes the means of the diagonals, tr(A_tt)/3 and tr(A_rr)/3. What A has beside these is
-// small (space-design.md: at most 9 %), and response and push of the fluid use the same A, so that
-// the rounds of `joint` end at the same motion.
+// small (5.5 % for one sphere, docs/decisions/multipliers.md), and response and push of the fluid
+// use the same A, so that the rounds of `joint` end at the same motion.
 #pragma once
 
 #include <string>

@@ -5,7 +5,8 @@
     site.py show SITE [PORT]          on this machine alone, until Ctrl-C
 
 Building needs mkdocs and mkdocs-material (Debian). A page without a place in mkdocs.yml, a place without a page, and a link
-that leads nowhere are errors."""
+that leads nowhere are errors. With doxygen the site has the reference of the headers too (api/), and links to a header lead
+there; without it both are left out."""
 import functools
 import http.server
 import re
@@ -14,8 +15,11 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 CONFIGURATION = Path(__file__).resolve().parent / 'mkdocs.yml'
+REFERENCE = Path('launcher/site/api')
+API_PLACE = re.compile(r'^ +- API: .*\n', re.M)
 LINK = re.compile(r'\]\(([^)#\s:]+)(#[^)\s]*)?\)')
 PICTURES = ('.png', '.webp', '.svg')
 
@@ -26,10 +30,13 @@ def pages_of(sources):
     return sorted(page.relative_to(sources) for page in found)
 
 
-def as_page(sources, page):
-    """The text of a page: links to sources of programs, which are no part of the site, become their names."""
+def as_page(sources, page, reference):
+    """The text of a page: links to headers lead to their pages in the reference, those to other sources of programs, which
+    are no part of the site, become their names."""
     def link(match):
         target = (sources / page).parent / match[1]
+        if described := reference.get(target.resolve()):
+            return '](' + '../' * (len(page.parts) - 1) + f'api/{described})'
         if target.suffix == '.md' or target.suffix in PICTURES or not target.exists():
             return match[0]
         return '](' + '\0'
@@ -37,11 +44,48 @@ def as_page(sources, page):
     return re.sub(r'(?<!!)\[([^\]]*)\]\(\0', r'\1', text)
 
 
-def stage(sources, folder):
+def version_of(sources):
+    """That of the project, with the last commit of the headers if the sources have a history."""
+    project = sources / 'CMakeLists.txt'
+    version = re.search(r'project\(\w+ VERSION ([\d.]+)', project.read_text() if project.exists() else '')
+    try:
+        commit = subprocess.run(['git', '-C', sources, 'log', '-1', '--format=%h', '--abbrev=10', '--', 'coupler'],
+                                capture_output=True, text=True, check=False).stdout.strip()
+    except FileNotFoundError:
+        commit = ''
+    return ' '.join(part for part in (version and version[1], commit and f'({commit})') if part)
+
+
+def lacking(sources):
+    """What keeps the site from having the reference; empty if nothing does."""
+    if not (sources / REFERENCE).is_dir():
+        return f'{sources} has pages only'
+    return '' if shutil.which('doxygen') else 'apt-get install doxygen'
+
+
+def describe(sources, folder, more=''):
+    """The reference of headers and module, made by doxygen in the folder: the page of each header, and the warnings. The
+    settings are those of REFERENCE, and what more is given."""
+    folder.mkdir(parents=True)
+    warnings = ''
+    with tempfile.TemporaryDirectory() as work:
+        for part in ('python.Doxyfile', 'Doxyfile'):
+            settings = (f'@INCLUDE_PATH = {REFERENCE}\n@INCLUDE = {part}\nPROJECT_NUMBER = "{version_of(sources)}"\n'
+                        f'OUTPUT_DIRECTORY = "{folder}"\nGENERATE_TAGFILE = "{work}/tags.xml"\n{more}\n')
+            done = subprocess.run(['doxygen', '-'], input=settings, cwd=sources, capture_output=True, text=True, check=False)
+            if done.returncode:
+                sys.exit(f'doxygen ended with {done.returncode}\n{done.stdout}{done.stderr}')
+            warnings += done.stderr
+        files = ElementTree.parse(f'{work}/tags.xml').findall("compound[@kind='file']")
+    pages = {(sources / file.findtext('path') / file.findtext('name')).resolve(): file.findtext('filename') for file in files}
+    return pages, warnings
+
+
+def stage(sources, folder, reference):
     """Pages and their pictures in the folders they have in the sources, so that their links hold."""
     for page in pages_of(sources):
         (folder / page).parent.mkdir(parents=True, exist_ok=True)
-        (folder / page).write_text(as_page(sources, page))
+        (folder / page).write_text(as_page(sources, page, reference))
     shutil.copytree(sources / 'docs/images', folder / 'docs/images')
 
 
@@ -57,8 +101,14 @@ def build(sources, site):
         sys.exit(f'{CONFIGURATION} has no place for {", ".join(lost)}')
     with tempfile.TemporaryDirectory() as work:
         work = Path(work)
-        stage(sources, work / 'pages')
-        (work / 'mkdocs.yml').write_text(CONFIGURATION.read_text() + 'docs_dir: pages\n')
+        configuration, reference = CONFIGURATION.read_text() + 'docs_dir: pages\n', {}
+        if lacks := lacking(sources):
+            print(f'The site is without the reference of the headers (API): {lacks}', file=sys.stderr)
+            configuration = API_PLACE.sub('', configuration)
+        else:
+            reference, _ = describe(sources, work / 'pages/api')
+        stage(sources, work / 'pages', reference)
+        (work / 'mkdocs.yml').write_text(configuration)
         done = subprocess.run(['mkdocs', 'build', '--strict', '-f', work / 'mkdocs.yml', '-d', work / 'site'],
                               capture_output=True, text=True, check=False)
         if done.returncode:

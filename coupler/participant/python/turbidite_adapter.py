@@ -20,8 +20,10 @@
     turbidite.run_grains(MyCode(), sys.argv[-1])
 
 The calls mean what docs/write-an-adapter.md says, units and fields are those of coupler/protocol/records.hpp.
-`grains`, `kicks` and `responses` are numpy arrays with named fields (GRAIN, KICK, RESPONSE). An exception ends the
-run for all participants with its text: exit code 4, or 6 for PhysicsRefused.
+`grains`, `kicks` and `responses` are numpy arrays with named fields (GRAIN, KICK, RESPONSE), the adapter's own to keep and
+to change; `settings` is a Settings, `shapes` a list of Shape (kind, vertices), `window` a Window (index, time, step,
+write_output). An exception ends the run for all participants with its text: exit code 4, or 6 for PhysicsRefused; one in
+`save` costs this checkpoint only.
 
 Everything passes through the C interface, turbidite.h, in libturbidite.so.
 """
@@ -101,20 +103,24 @@ class Motion:
 
 
 class Settings(dict):
-    """The resolved case, key -> text, and run.*; the typed look-ups name a key that is missing."""
+    """The resolved case, key -> text, with run.* of settings.hpp; the typed look-ups name a key that is missing."""
 
     def text(self, key):
+        """Any value, as it stands; KeyError for a key that is missing."""
         if key not in self:
             raise KeyError(f'the resolved case has no key "{key}"')
         return self[key]
 
     def real(self, key):
+        """A number; ValueError for another text."""
         return float(self.text(key))
 
     def integer(self, key):
+        """A whole number; ValueError for another text."""
         return int(self.text(key))
 
     def flag(self, key):
+        """True or False; KeyError for another text."""
         return {'true': True, 'false': False}[self.text(key)]
 
 

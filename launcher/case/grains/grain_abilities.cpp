@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "coupler/hub/schemes/scheme.hpp"
@@ -98,18 +99,19 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
                          "(fluid.stretch_from = {}).",
                          *height, settings.text("fluid.stretch_from")),
              "Use a larger fluid.stretch_from, or fluid.allow_coarse: true."});
-    // The effective mass M - rho_f V(R_h) must be above zero unless `joint` leaves it to the fluid.
+    // Effective mass and inertia must be above zero unless `joint` leaves them to the fluid.
     if (!find_scheme(settings.text("coupling.scheme")).needs_inertia())
         rules.push_back(
             {[settings](const PlacedGrain& g) {
-                 return g.density && *g.density <= displaced_share(settings, g.radius) &&
+                 return g.density && *g.density <= least_density(settings, g.radius) &&
                         !g.prescribed;
              },
              [](const PlacedGrain& g) { return fmt::format("density = {}", *g.density); },
-             "Without coupling.scheme: joint, grains in a fluid must be denser than what they "
-             "displace.",
+             "Without coupling.scheme: joint, grains in a fluid must be denser than what it sees "
+             "of "
+             "them.",
              "Use coupling.scheme: joint, or a density above 1 (in space: (1 + fluid.surface_shift "
-             "/ cells per radius)^3)."});
+             "/ cells per radius)^5)."});
     return rules;
 }
 
@@ -127,15 +129,16 @@ CaseProblem refused(const StartGrains& start, std::size_t i, const GrainRule& ru
 
 }  // namespace
 
-double displaced_share(const Settings& settings, double radius) {
+double least_density(const Settings& settings, double radius) {
     for (const char* key :
          {"fluid.surface_shift", "fluid.cells_per_diameter", "fluid.hydrodynamic_radius"})
         if (!settings.has(key)) return 1.0;  // of the plane, or refused
     const double cells = settings.real("fluid.cells_per_diameter") * radius;  // of its radius
     const double seen =
         settings.real("fluid.hydrodynamic_radius") + settings.real("fluid.surface_shift") / cells;
-    // V(R_h)/V(R), R_h/R = h + s/(cells per R); at least 1, since buoyancy acts on V(R).
-    return std::max(1.0, seen * seen * seen);
+    // M > rho_f V(R_h) and, the stronger of both, I > 2/5 rho_f V(R_h) R_h^2 with R_h/R = h +
+    // s/(cells per R); at least 1, since buoyancy acts on V(R).
+    return std::max(1.0, std::pow(seen, 5));
 }
 
 CaseProblems check_abilities(const StartGrains& start, const Settings& settings,

@@ -19,8 +19,9 @@ CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
 CaseProblems check_periods(const Packing& grains, const Settings& settings,
                            const CaseEntries& entries);
 
-/// The volume that the fluid sees of a sphere of this radius [D] over its own, where that is more
-/// (fluid.surface_shift); 1 in the plane. Without the fluid's responses grains must be denser.
-double displaced_share(const Settings& settings, double radius);
+/// The density [rho_f] above which a grain of this radius [D] has the effective mass and inertia
+/// that it needs without the fluid's responses: 1, in space more where the fluid sees a sphere
+/// larger than it is (fluid.surface_shift).
+double least_density(const Settings& settings, double radius);
 
 }  // namespace turbidite

@@ -3,7 +3,7 @@
 // The contact of molecular dynamics, a linear spring and dashpot without attraction, and its
 // sub-steps. Two touching grains of reduced mass m_r have
 //
-//     k = m_r w^2,   c = 2 zeta m_r w        so all pairs bounce in the same time, pi/w
+//     k = m_r w^2,   c = 2 zeta m_r w        so all pairs bounce in the same time, pi/w undamped
 //
 // contact.md_stiffness is k over m g/D for two equal grains of mass m: w^2 = 2 stiffness g/D. It is
 // the larger of the values that two situations need for an overlap of contact.md_overlap = d:

@@ -108,17 +108,23 @@ Ruling lattice_has_one_size(const Settings& s) {
     return lattice_objection(s, "several sizes");
 }
 
+/// [D]; radii lie between 2 R/(1 + q) and 2 R q/(1 + q).
+double smallest_radius(const Settings& s) {
+    const double mean = s.has("grains.radius") ? s.real("grains.radius") : 0.5;
+    return 2.0 * mean / (1.0 + s.real("grains.size_ratio"));
+}
+
 // Without the fluid's responses grains move with the inertia (1 - rho_f/rho_s) M, which must be
 // positive.
 Ruling light_grains_need_joint(const Settings& s) {
-    const double displaced = displaced_share(s, 0.5);
-    if (s.real("grains.density_ratio") > displaced || !s.flag("fluid.enabled") ||
+    const double least = least_density(s, smallest_radius(s));
+    if (s.real("grains.density_ratio") > least || !s.flag("fluid.enabled") ||
         find_scheme(s.text("coupling.scheme")).needs_inertia())
         return std::nullopt;
     return Objection{"With coupling.scheme: " + s.text("coupling.scheme") +
-                         fmt::format(" grains in a fluid must be denser than what they displace: "
+                         fmt::format(" grains in a fluid must be denser than what it sees of them: "
                                      "a ratio above {}.",
-                                     real_text(displaced)),
+                                     real_text(least)),
                      "Use coupling.scheme: joint, which takes any density, or a larger ratio."};
 }
 

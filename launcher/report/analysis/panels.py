@@ -166,7 +166,7 @@ def add_weight(page, run):
 
 def add_energy(page, run):
     found = energy.budget(run)
-    if found is None:
+    if found is None or len(found.time) < 2:  # a grain has left within the first interval
         return
     figure, axes = panel('Energy of the grains', TIME_LABEL, r'energy $/\,(\Sigma m\,u_c^2)$')
     for k, (label, values) in enumerate((('potential energy lost', -found.potential), ('their motion', found.kinetic),

@@ -140,7 +140,12 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
     EXPECT_EQ(with({"output.fields=vorticity solid"}), "");
     EXPECT_SAYS(with({"fluid.surface_shift=1.5"}), "fluid.surface_shift = 1.5");
     // Without the fluid's responses a sphere must be denser than what it displaces: (1 + 0.6/8)^3.
-    EXPECT_SAYS(with({"coupling.scheme=split", "grains.density_ratio=1.2"}), "a ratio above 1.24");
+    // R_h/R = 1.075: the effective mass is positive from 1.24 on, the effective inertia from 1.44.
+    EXPECT_SAYS(with({"coupling.scheme=split", "grains.density_ratio=1.4"}), "a ratio above 1.43");
+    // Of the smallest: R = 0.4 D.
+    EXPECT_SAYS(
+        with({"coupling.scheme=split", "grains.density_ratio=1.5", "grains.size_ratio=1.5"}),
+        "a ratio above 1.5");
     EXPECT_EQ(with({"coupling.scheme=joint", "grains.density_ratio=1.2"}), "");
 }
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The site: every page has a place, links hold, pictures and the search are there."""
+"""The site: every page has a place, links hold, pictures and the search are there, and with doxygen the API reference."""
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -14,9 +15,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'launcher/site/site.py'
 
+needs_doxygen = unittest.skipUnless(shutil.which('doxygen'), 'doxygen is not installed')
 
-def script(*words):
-    return subprocess.run(['/usr/bin/python3', '-B', SCRIPT, *map(str, words)], capture_output=True, text=True, check=False)
+
+def script(*words, path=os.environ['PATH']):
+    return subprocess.run(['/usr/bin/python3', '-B', SCRIPT, *map(str, words)], capture_output=True, text=True, check=False,
+                          env={**os.environ, 'PATH': path})
 
 
 class Site(unittest.TestCase):
@@ -59,6 +63,39 @@ class Site(unittest.TestCase):
             self.assertIn('OpenFOAM', urllib.request.urlopen(address + 'index.html').read().decode())
             server.terminate()
             clock.cancel()
+
+    @needs_doxygen
+    def test_the_table_of_contents_and_the_page_on_adapters_lead_to_it(self):
+        page = (self.site / 'docs/write-an-adapter.html').read_text()
+        for target in ('../api/index.html', '../api/adapter_8hpp.html', '../api/turbidite_8h.html'):
+            self.assertTrue(f'href="{target}"' in page, target)
+
+    @needs_doxygen
+    def test_links_of_the_reference_lead_back(self):
+        page = (self.site / 'api/index.html').read_text()
+        self.assertTrue('href="../docs/write-an-adapter.html"' in page)
+        self.assertTrue('"../index.html"' in (self.site / 'api/menudata.js').read_text())
+
+    @needs_doxygen
+    def test_the_reference_names_the_version(self):
+        version = re.search(r'project\(\w+ VERSION ([\d.]+)', (ROOT / 'CMakeLists.txt').read_text())[1]
+        shown = re.search(r'id="projectnumber">&#160;([^<]*)<', (self.site / 'api/index.html').read_text())[1]
+        self.assertRegex(shown, rf'^{re.escape(version)}( \([0-9a-f]+\))?$')
+
+
+class WithoutDoxygen(unittest.TestCase):
+    def test_the_site_is_built_and_says_what_is_missing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            programs, site = Path(folder) / 'bin', Path(folder) / 'site'
+            programs.mkdir()
+            for name in ('mkdocs', 'git'):
+                if found := shutil.which(name):
+                    (programs / name).symlink_to(found)
+            built = script('build', ROOT, site, path=str(programs))
+            self.assertEqual((built.returncode, built.stdout), (0, ''), built.stderr)
+            self.assertRegex(built.stderr, r'^[^\n]*without the reference[^\n]*doxygen\n$')
+            self.assertFalse((site / 'api').exists())
+            self.assertFalse('api/' in (site / 'docs/write-an-adapter.html').read_text())
 
 
 class Faults(unittest.TestCase):

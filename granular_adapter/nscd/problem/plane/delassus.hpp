@@ -3,7 +3,7 @@
 // Delassus operator W = H^T M^-1 H (Topin 2011, Eq. 19): maps contact impulses to the change of
 // contact velocity they cause, u = H^T v_free + b + W r. [1/kg]
 //
-// Unlike in the paper r is an impulse, not a force, so W does not contain dt. W is applied, never
+// r is an impulse, so W does not contain dt. W is applied, never
 // assembled; only its diagonal blocks are stored, in (n, t, roll). For discs the arms are parallel
 // to n, hence W_nt = 0 in every block, unless the mobility of a body is anisotropic or couples
 // translation to spin.
