@@ -139,8 +139,8 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
     EXPECT_SAYS(with({"output.probes=[1, 1, 1, 1, 1, 7]"}), "Point 2 is outside the box");
     EXPECT_EQ(with({"output.fields=vorticity solid"}), "");
     EXPECT_SAYS(with({"fluid.surface_shift=1.5"}), "fluid.surface_shift = 1.5");
-    // Without the fluid's responses a sphere must be denser than what it displaces: (1 + 0.6/8)^3.
-    // R_h/R = 1.075: the effective mass is positive from 1.24 on, the effective inertia from 1.44.
+    // Without the fluid's responses, R_h/R = 1 + 0.6/8: the effective mass is positive from 1.24
+    // on, the effective inertia from 1.44.
     EXPECT_SAYS(with({"coupling.scheme=split", "grains.density_ratio=1.4"}), "a ratio above 1.43");
     // Of the smallest: R = 0.4 D.
     EXPECT_SAYS(
