@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the documentation names is in the tree.
 
-Links of all pages lead to a file and a heading; pages that sources name exist. In the README, the decisions, the theory and
-the pages folders, running and window every name in back-quotes exists: files, folders, keys of a case, tests, and every word of the rest
+Links of all pages lead to a file and a heading; files that a page shows whole are shown as they are; pages that sources
+name exist. In the README, the decisions, the theory and the pages folders, running and window every name in back-quotes
+exists: files, folders, keys of a case, tests, and every word of the rest
 somewhere in the sources. Folders under another licence than most are in the licences of docs/folders.md.
 usage: documented_names_test.py PROJECT_FOLDER
 """
@@ -46,6 +47,16 @@ def dead_links(page):
         if not target.exists() or (anchor and anchor not in anchors(target.read_text())):
             dead.append(f"{path}#{anchor}" if anchor else path)
     return dead
+
+
+def shown_files(text):
+    """(link, what the page shows) of files that a page shows whole: a link of its own line before the block."""
+    return re.findall(r"^\[[^\]]+\]\(([^)]+)\):\n```\w*\n(.*?)^```", text, flags=re.M | re.S)
+
+
+def as_shown(file):
+    """Without the line about its licence."""
+    return "".join(line for line in file.read_text().splitlines(keepends=True) if "SPDX-License-Identifier" not in line)
 
 
 def names(text):
@@ -97,6 +108,13 @@ class Names(unittest.TestCase):
     def test_links_lead_somewhere(self):
         self.assertEqual({str(page.relative_to(self.folder)): dead for page in self.pages() if (dead := dead_links(page))}, {})
 
+    def test_files_are_shown_as_they_are(self):
+        shown = [(page, link, block) for page in self.pages() for link, block in shown_files(page.read_text())]
+        self.assertGreater(len(shown), 1)
+        for page, link, block in shown:
+            with self.subTest(f"{page.name}: {link}"):
+                self.assertEqual(block, as_shown(page.parent / link))
+
     def test_pages_that_sources_name_exist(self):
         named = {(file, page) for file, text in Tree(self.folder).sources.items()
                  for page in re.findall(r"\bdocs/[\w/-]+\.md\b", text) if "tests/architecture" not in file}
@@ -129,6 +147,9 @@ class Itself(unittest.TestCase):
     def test_links(self):
         self.assertEqual(links("[a](b.md#c) [d](https://e) `[f](g)` [h](#i)\n```\n[j](k)\n```\n"),
                          [("b.md", "c"), ("", "i")])
+
+    def test_shown_files(self):
+        self.assertEqual(shown_files("See [a](b.sh):\n```\nno\n```\n[c](../d.sh):\n```bash\nyes\n```\n"), [("../d.sh", "yes\n")])
 
     def test_names_that_are_gone(self):
         tree = Tree(Names.folder)
