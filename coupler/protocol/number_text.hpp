@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-//
-// Numbers in texts of the resolved case. They are read alike whatever locale a host has set, in which
-// strtod may expect a comma. Valid C++17.
+/// \file
+/// Numbers in texts of the resolved case. They are read alike whatever locale a host has set, in
+/// which strtod may expect a comma. Valid C++17.
 #pragma once
 
 #include <charconv>
@@ -23,8 +23,8 @@ std::optional<T> number_of(const std::string& text) {
     return result;
 }
 
-/// The words that are left, all of which must be numbers. Throws std::invalid_argument with the first
-/// that is none: "has no number \"x\"".
+/// The words that are left, all of which must be numbers. Throws std::invalid_argument with the
+/// first that is none: "has no number \"x\"".
 inline std::vector<double> remaining_numbers(std::istream& words) {
     std::vector<double> numbers;
     for (std::string word; words >> word;) {

@@ -11,7 +11,6 @@ void RigidPressure::begin(const Constraint& constraint, double dt, double k) {
     dt_ = dt;
     kept_ = k;
     work_.images.resize(step_.layers().components(), step_.cells());
-    rigid().u.resize(step_.layers().components(), step_.cells());
     // w of box_operators.hpp, 0 in covered cells: faces between two carry the rigid motion alone
     outside_.assign(step_.cells(), 1.0);
     constraint.clear_covered(outside_.data());
@@ -63,6 +62,8 @@ double RigidPressure::precondition(const RigidGrains& grains) {
 /// d = z + beta d, and W(-dt G d).
 void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz,
                                      const IterationLimit& limit) {
+    // Viscosity may have left another array in its place.
+    rigid().u.resize(step_.layers().components(), step_.cells());
     const double last = rz;
     // beta = r.z/(r.z of the last iteration)
     rz = precondition(grains);

@@ -111,7 +111,8 @@ Ruling lattice_has_one_size(const Settings& s) {
 /// [D]; radii lie between 2 R/(1 + q) and 2 R q/(1 + q).
 double smallest_radius(const Settings& s) {
     const double mean = s.has("grains.radius") ? s.real("grains.radius") : 0.5;
-    return 2.0 * mean / (1.0 + s.real("grains.size_ratio"));
+    const double ratio = s.has("grains.size_ratio") ? s.real("grains.size_ratio") : 1.0;
+    return 2.0 * mean / (1.0 + ratio);
 }
 
 // Without the fluid's responses grains move with the inertia (1 - rho_f/rho_s) M, which must be
