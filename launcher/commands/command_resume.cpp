@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "launcher/commands/command.hpp"
+#include "launcher/job/job.hpp"
 #include "launcher/job/resume_run.hpp"
 #include "launcher/job/terminal.hpp"
 
@@ -19,6 +20,7 @@ struct ResumeOptions {
 };
 
 int resume(const ResumeOptions& options) {
+    hold_announcements();
     const auto tell = [&](const std::string& text) {
         options.dry_run ? fmt::print(stderr, "{}", for_stderr(text))
                         : fmt::print("{}", for_stdout(text));

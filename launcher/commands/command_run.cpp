@@ -9,6 +9,7 @@
 #include "launcher/case/grains/pouring.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
+#include "launcher/job/job.hpp"
 #include "launcher/job/play_run.hpp"
 #include "launcher/job/pour_grains.hpp"
 #include "launcher/job/shipped_cases.hpp"
@@ -33,6 +34,7 @@ ResolvedCase with_poured_grains(ResolvedCase resolved, const RunOptions& options
 }
 
 int run(const RunOptions& options) {
+    hold_announcements();
     const LaunchSite site = this_site();
     const ResolvedCase resolved =
         with_poured_grains(load_case(options.file, options.overrides, options.from), options, site);

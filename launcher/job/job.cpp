@@ -30,6 +30,13 @@ sigset_t watched_signals() {
     return set;
 }
 
+sigset_t announcements() {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGUSR1);
+    return set;
+}
+
 /// Signals are queued while the job runs, so none is lost between two checks.
 class BlockedSignals {
  public:
@@ -59,6 +66,8 @@ void redirect(int stream, const std::filesystem::path& file) {
     if (getppid() != parent) _exit(cannot_start);
     // The job must not inherit the blocked signals, or no SIGTERM would reach mpirun.
     sigprocmask(SIG_SETMASK, &mask, nullptr);
+    const sigset_t held = announcements();
+    sigprocmask(SIG_UNBLOCK, &held, nullptr);
     redirect(STDERR_FILENO, order.error_log);
     if (!order.output_log.empty()) redirect(STDOUT_FILENO, order.output_log);
     // Nothing of the terminal's input goes to the job.
@@ -182,6 +191,11 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
 }
 
 }  // namespace
+
+void hold_announcements() {
+    const sigset_t set = announcements();
+    sigprocmask(SIG_BLOCK, &set, nullptr);
+}
 
 JobEnd run_job(const JobOrder& order) {
     const BlockedSignals signals;

@@ -35,6 +35,10 @@ struct JobEnd {
     bool crashed = false;  ///< ended by a signal that was not sent on request
 };
 
+/// From now on SIGUSR1, with which batch systems announce the end of their time, waits for the next
+/// job: it ends neither preparations nor a report.
+void hold_announcements();
+
 /// Waits for the end. Throws Failure (exit code 4) if the program cannot be started.
 JobEnd run_job(const JobOrder& order);
 

@@ -152,6 +152,12 @@ JobOutcome of_first_end(const RunFolder& folder, const FirstEnd& first,
         log};
 }
 
+/// Whether the signal that ended a program came to this one as well, as batch systems send it to
+/// all processes of a job.
+bool came_to_all(const FirstEnd& first, int signal) {
+    return signal != 0 && first.what.rfind(fmt::format("was ended by signal {} ", signal), 0) == 0;
+}
+
 // mpirun returns the exit code of the rank that ended first.
 JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
                           const std::vector<std::string>& ranks) {
@@ -161,7 +167,8 @@ JobOutcome without_a_word(const RunFolder& folder, const JobEnd& end,
     if (end.killed)
         return {signal_code(end.signal),
                 begun ? "killed on request" : "stopped on request before the first window"};
-    if (const auto first = read_first_end(folder.root); first && !end.crashed)
+    if (const auto first = read_first_end(folder.root);
+        first && !end.crashed && !came_to_all(*first, end.signal))
         return of_first_end(folder, *first, ranks);
     if (end.signal != 0) return {signal_code(end.signal), "stopped on request"};
     if (end.overdue)

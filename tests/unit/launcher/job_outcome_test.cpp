@@ -103,6 +103,17 @@ TEST_F(Outcome, TheFirstEndDecidesTheCode) {
     EXPECT_SAYS(outcome.error, "the run had not begun");
 }
 
+// As scancel sends it.
+TEST_F(Outcome, ASignalToAllProgramsIsAnInterruption) {
+    std::filesystem::create_directories(folder.logs());
+    write_first_end(scratch.path(), {ExitCode::participant_failed, "coupler",
+                                     "was ended by signal 15 (Terminated)"});
+    EXPECT_EQ(settle_outcome(folder, {.status = 143, .signal = SIGTERM}, ranks).code,
+              ExitCode::terminated);
+    scratch.write("run.json", "{}");
+    EXPECT_EQ(settle_outcome(folder, {.status = 143}, ranks).code, ExitCode::participant_failed);
+}
+
 // Every program repeats the reason in its log; it is shown once.
 TEST_F(Outcome, TheReasonIsNotRepeatedByTheLog) {
     scratch.write("run.json",

@@ -133,6 +133,21 @@ TEST_F(JobTest, KillsAProgramThatStaysWithoutItsChildren) {
     EXPECT_EQ(play("exec sleep 13").status, 0);
 }
 
+// The job takes it, whose programs do not inherit that it was held.
+TEST_F(JobTest, AnAnnouncementBeforeTheJobIsARequest) {
+    hold_announcements();
+    raise(SIGUSR1);
+    const std::string stop = (scratch.path() / "STOP").string();
+    const JobEnd end = run("until [ -e " + stop + " ]; do sleep 0.05; done; kill -USR1 $$; exit 7");
+    EXPECT_EQ(end.signal, SIGUSR1);
+    EXPECT_FALSE(end.killed);
+    EXPECT_EQ(end.status, 128 + SIGUSR1);
+    sigset_t held;
+    sigemptyset(&held);
+    sigaddset(&held, SIGUSR1);
+    sigprocmask(SIG_UNBLOCK, &held, nullptr);
+}
+
 TEST_F(JobTest, FirstSignalIsARequest) {
     const std::string stop = (scratch.path() / "STOP").string();
     const Later signal(1, SIGTERM);
