@@ -243,6 +243,19 @@ TEST_F(AdapterTest, APythonProgramMayRepeatWindows) {
     EXPECT_SAYS(answer.out, "ok    repeats a window");
 }
 
+TEST_F(AdapterTest, AFaultOfADescriptionInPythonIsTold) {
+    scratch.write("mine.py",
+                  "import sys, turbidite_adapter as turbidite\n"
+                  "class Mine:\n"
+                  "    name, version, host_code = 'mine', '1', 'Python'\n"
+                  "    shapes, dimensions = ['sphere'], 3\n"
+                  "    initialise = advance = apply_kick = None\n"
+                  "turbidite.run_grains(Mine(), sys.argv[-1])\n");
+    const Answer answer = judge("--dimension 3 --only 'falls freely' -- /usr/bin/python3 mine.py");
+    EXPECT_EQ(answer.code, 1) << answer.out << answer.err;
+    EXPECT_SAYS(answer.out, "dimensions = 3; allowed are (2,), (3,) and (2, 3)");
+}
+
 // sys.exit in a program in Python is told by the library, not by the program.
 TEST_F(AdapterTest, AnExitIsNoRefusal) {
     scratch.write("mine.py",

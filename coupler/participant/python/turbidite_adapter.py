@@ -113,15 +113,25 @@ class Settings(dict):
 
     def real(self, key):
         """A number; ValueError for another text."""
-        return float(self.text(key))
+        return self._as(float, key, 'a number')
 
     def integer(self, key):
         """A whole number; ValueError for another text."""
-        return int(self.text(key))
+        return self._as(int, key, 'a whole number')
 
     def flag(self, key):
-        """True or False; KeyError for another text."""
-        return {'true': True, 'false': False}[self.text(key)]
+        """True or False; ValueError for another text."""
+        value = self.text(key)
+        if value not in ('true', 'false'):
+            raise ValueError(f'{key} = "{value}" is neither true nor false')
+        return value == 'true'
+
+    def _as(self, kind, key, name):
+        value = self.text(key)
+        try:
+            return kind(value)
+        except ValueError:
+            raise ValueError(f'{key} = "{value}" is not {name}') from None
 
 
 # ---- the C interface ----------------------------------------------------------------------------------------------
@@ -265,9 +275,11 @@ def _texts(texts):
 
 def _dimensions(dimensions):
     """Of turbidite.h."""
-    if dimensions not in ((2,), (3,), (2, 3)):
+    known = {(2,): 2, (3,): 3, (2, 3): 23}
+    given = tuple(dimensions) if isinstance(dimensions, (list, tuple)) else dimensions
+    if given not in known:
         raise ValueError(f'dimensions = {dimensions}; allowed are (2,), (3,) and (2, 3)')
-    return dict(zip(((2,), (3,), (2, 3)), (2, 3, 23)))[dimensions]
+    return known[given]
 
 
 def _describe(adapter, struct):
@@ -277,7 +289,7 @@ def _describe(adapter, struct):
         setattr(struct, flag, bool(getattr(adapter, flag, False)))
     struct.shapes = _texts(getattr(adapter, 'shapes', ['disc']))
     struct.contact_laws = _texts(getattr(adapter, 'contact_laws', []))
-    struct.dimensions = _dimensions(tuple(getattr(adapter, 'dimensions', (2,))))
+    struct.dimensions = _dimensions(getattr(adapter, 'dimensions', (2,)))
 
 
 def _struct(adapter):
@@ -286,6 +298,7 @@ def _struct(adapter):
         _describe(adapter, struct)
     except Exception as error:      # who ended here would wait in MPI_Finalize for the others
         calls.fault = error
+        struct.dimensions = _dimensions((2, 3))  # or another refusal would come before this one is told
     saves = hasattr(adapter, 'save') and hasattr(adapter, 'restore')
     for name in ('initialise', 'advance', 'apply_kick') + (('save', 'restore') if saves else ()):
         setattr(struct, name, types[name](_guarded(getattr(calls, name))))
