@@ -31,6 +31,12 @@ class VelocityRows {
         for (std::vector<double>& row : rows_) row.resize(cells);
     }
 
+    /// Room for as many rows, which keep their own.
+    void have(int components) { rows_.resize(components); }
+
+    /// For those of somebody who has no use for them; their size may be another.
+    void swap(std::vector<std::vector<double>>& rows) { rows_.swap(rows); }
+
     int size() const { return static_cast<int>(rows_.size()); }
     std::vector<double>& operator[](int axis) { return rows_[axis]; }
     const std::vector<double>& operator[](int axis) const { return rows_[axis]; }

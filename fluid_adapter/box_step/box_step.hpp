@@ -78,6 +78,9 @@ class BoxStep {
     void hold_flux();
     void release_flux() { held_.held = false; }
 
+    /// The arrays of a flux that is not held, of no content; whoever takes them gives others back.
+    FaceValues& idle_flux() { return held_.flux; }
+
     /// Holds, instead of phi1, the solenoidal flux nearest to S.u + e for transport over dt [s]; u
     /// and e stay as they are.
     FluxReport hold_solenoidal_flux(double dt);

@@ -102,8 +102,8 @@ class SecondOrder {
     /// Is there an earlier window?
     bool goes_on() const { return goes_on_; }
 
-    /// Gives back what only `transport` needs; it makes the room again.
-    void release_work() { working_.clear(), part_start_.clear(); }
+    /// The arrays that only `transport` needs, of no content; whoever takes them gives others back.
+    std::vector<std::vector<double>>& idle_stages() { return working_; }
 
     /// The velocity was changed from outside: begins anew.
     void forget() { goes_on_ = false; }

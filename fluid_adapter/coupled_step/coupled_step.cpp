@@ -18,6 +18,11 @@ void add(IterationResult& total, IterationResult latest) {
 
 }  // namespace
 
+void CoupledStep::exchange_work(std::vector<std::vector<double>>& stages, FaceValues& flux) {
+    work_.change.u.swap(stages);
+    viscosity_.exchange_residual(flux);
+}
+
 /// s without the impulses that it has.
 void CoupledStep::keep_transported() {
     if (!keep_) return;

@@ -50,9 +50,12 @@ class CoupledStep {
     /// After transport: keeps it, if asked to.
     void keep_transported();
 
+    /// Exchanges work arrays for those that transport has no use for until the next one begins, and
+    /// back: six numbers per cell less.
+    void exchange_work(std::vector<std::vector<double>>& stages, FaceValues& flux);
+
     /// Keeps s of the next window.
     void keep_unconstrained(bool keep) { keep_ = keep; }
-    bool keeps_unconstrained() const { return keep_; }
 
     /// Once per window, before the first correct.
     void place_grains(const Constraint& constraint);

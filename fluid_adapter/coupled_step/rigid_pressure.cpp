@@ -10,7 +10,8 @@ namespace turbidite {
 void RigidPressure::begin(const Constraint& constraint, double dt, double k) {
     dt_ = dt;
     kept_ = k;
-    work_.images.resize(step_.layers().components(), step_.cells());
+    work_.images.have(step_.layers().components());
+    residual().resize(step_.cells());
     // w of box_operators.hpp, 0 in covered cells: faces between two carry the rigid motion alone
     outside_.assign(step_.cells(), 1.0);
     constraint.clear_covered(outside_.data());
@@ -69,6 +70,7 @@ void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, boo
     rz = precondition(grains);
     const double* z = step_.pressure_solve().values();
     if (limit.most > 1) {
+        later().resize(step_.cells());
         box.direction(dt_, z, first ? 0.0 : rz / last, later().data(), rigid().u.pointers());
         // A copy, since the next preconditioning overwrites z.
         direction_ = later().data();

@@ -28,6 +28,10 @@ class RigidViscosity {
     /// The last change of the velocity may be left pending.
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
 
+    /// Between windows, for arrays that are idle from then on; whoever gives them has no use for
+    /// what is in these.
+    void exchange_residual(std::vector<std::vector<double>>& rows) { residual_.swap(rows); }
+
     /// f over the rank's cells [m/s].
     const VelocityRows& impulse();
 

@@ -84,7 +84,15 @@ FluxReport BoxFluidStep::solenoidal() {
     return report;
 }
 
+/// What only transport needs is lent to pressure and viscosity until the next projection.
+void BoxFluidStep::lend(bool lent) {
+    if (!coupled_ || lent == lent_) return;
+    coupled_->exchange_work(second_order_.idle_stages(), step_.idle_flux());
+    lent_ = lent;
+}
+
 Projection BoxFluidStep::project() {
+    lend(false);
     if (!fields_->stay_in_rows()) load();
     const FluxReport report = solenoidal();
     double largest[] = {report.divergence, report.courant};
@@ -109,6 +117,7 @@ std::vector<BoundaryForce> BoxFluidStep::transport(const TransportParts& parts) 
     for (BoundaryForce& force : forces) force = on_all_ranks(force);
     viscous_transport_ = parts.viscous;
     step_.release_flux();
+    lend(true);
     return forces;
 }
 
@@ -131,8 +140,6 @@ std::vector<BoundaryForce> BoxFluidStep::transport_in_first_order(int parts) {
 
 BoundaryForce BoxFluidStep::diffuse() {
     if (coupled_) {
-        // s in the place of the arrays of transport: a window that keeps it needs no more memory.
-        if (coupled_->keeps_unconstrained()) second_order_.release_work();
         // f, explicit, has come with transport, and `correct` makes it implicit.
         coupled_->keep_transported();
         return {};

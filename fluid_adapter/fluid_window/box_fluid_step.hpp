@@ -70,6 +70,7 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     MemoryRows memory_rows() const override;
 
  private:
+    void lend(bool lent);
     FluxReport solenoidal();
     void load();
     void store();
@@ -94,7 +95,8 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     bool viscous_transport_ = false;  // step 2 has done step 3, in this window
     SecondOrder second_order_;
     std::optional<CoupledStep> coupled_;
-    bool floating_;  // no side fixes p
+    bool lent_ = false;  // arrays of transport, to pressure and viscosity
+    bool floating_;      // no side fixes p
 };
 
 }  // namespace turbidite
