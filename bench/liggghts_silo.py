@@ -92,10 +92,12 @@ class Silo:
         return int((self.from_axis(above) > self.wall_radius(above[:, 1])).sum())
 
 
-def read_state(path):
+def read_state(path, size):
+    """Without those whose centre has left the box, as `turbidite run --from` leaves them out."""
     arrays = grain_files.read_arrays(path)
     triples = [arrays[name].reshape(-1, 3) for name in ('Points', 'velocity', 'angular_velocity')]
-    return State(*triples, arrays['radius'], arrays['density'])
+    inside = ((triples[0] >= 0.0) & (triples[0] <= size)).all(axis=1)
+    return State(*(values[inside] for values in (*triples, arrays['radius'], arrays['density'])))
 
 
 def silo_of(run):
@@ -190,7 +192,9 @@ def data_file(state, size):
     number = range(1, len(state.radii) + 1)
     rows = lambda table: '\n'.join(' '.join(f'{v:.12g}' for v in row) for row in table)
     one = np.ones(len(state.radii))
-    bounds = '\n'.join(f'0 {length:.12g} {axis}lo {axis}hi' for axis, length in zip('xyz', size))
+    # LIGGGHTS refuses places beyond its box; ours leaves grains there until no part of them is inside.
+    margin = 2.0 * state.radii.max()
+    bounds = '\n'.join(f'{-margin:.12g} {length + margin:.12g} {axis}lo {axis}hi' for axis, length in zip('xyz', size))
     atoms = np.column_stack([number, one, 2.0 * state.radii, state.densities, state.centres])
     motion = np.column_stack([number, state.velocities, state.spins])
     return (f'spheres\n\n{len(one)} atoms\n2 atom types\n\n{bounds}\n\n'
@@ -372,7 +376,7 @@ def play_ours(side, options, run, silo, folder):
         sys.exit(f'{options.seconds:g} s are no whole number of windows of {side.step:g} s.')
     took_windows = np.diff(played.history['step'])
     side.seconds.append(float((played.history['wall_step'][1:] * took_windows).sum()))
-    centres = read_state(grain_files.grain_series(played)[-1][1]).centres
+    centres = grain_files.read_arrays(grain_files.grain_series(played)[-1][1])['Points'].reshape(-1, 3)
     side.above, side.outside = int(silo.above_lip(centres).sum()), silo.outside(centres)
     side.overlap = played.record['maxima']['penetration']
     side.left = f'{played.record["contact"]["unconverged_windows"]} windows unconverged; overlaps in every window'
@@ -405,7 +409,8 @@ def compare(options):
     if not run.case or not run.record:
         sys.exit(f'{folder} is no run folder.')
     path, since = state_at(run, float(time))
-    state, silo, sides = read_state(path), silo_of(run), sides_of(options.sides)
+    silo, sides = silo_of(run), sides_of(options.sides)
+    state = read_state(path, silo.size)
     load = os.getloadavg()[0]
     print(f'{path}, {since:.3g} s after the gate began to move; load {load:.2f} on {os.cpu_count()} cores')
     if load > QUIET:

@@ -98,12 +98,25 @@ void add(StartGrains& start, StartGrains more) {
     append(start.problems, std::move(more.problems));
 }
 
+/// Its centre is beyond a free side, where an output shows it until no part of it is inside.
+bool is_leaving(const PlacedGrain& grain, const PackingBox& box, const Settings& settings) {
+    const Vec3 place{grain.x, grain.y, grain.z}, size{box.width, box.height, box.depth};
+    return std::any_of(box_sides.begin(), box_sides.end(), [&](const BoxSide& side) {
+        return is(settings, side.key, "free") && side.distance(place, size) < 0.0;
+    });
+}
+
 StartGrains grains_of(const EarlierStart& start, const Settings& settings,
                       const GrainForms& forms) {
     EarlierGrains read =
         read_earlier_grains(start.run, start.earlier, forms, material_names(settings));
     std::vector<std::string> notes{
         fmt::format("grains taken from {} at {:.6g} t_c", read.source, read.time)};
+    const PackingBox box = packing_box(settings);
+    const auto left = std::erase_if(
+        read.grains, [&](const PlacedGrain& grain) { return is_leaving(grain, box, settings); });
+    if (left > 0)
+        notes.push_back(fmt::format("{} of them, which were beyond a free side, left out", left));
     if (settings.flag("fluid.enabled")) notes.push_back("the fluid starts at rest");
     return {std::move(read.grains), {read.source, {}}, std::move(notes), {}};
 }

@@ -101,6 +101,15 @@ TEST_F(EarlierRuns, TheNewRunFolderHoldsThem) {
     EXPECT_EQ(read.settings.real("grains.overlap"), 0.2);  // limits.penetration
 }
 
+// An output shows a grain until no part of it is inside.
+TEST_F(EarlierRuns, GrainsBeyondAFreeSideAreLeftOut) {
+    write_case();
+    const ResolvedCase later = start("", {"domain.size=[4.9, 20]", "domain.right=free"});
+    ASSERT_EQ(later.population.size(), 1u);
+    EXPECT_EQ(later.population[0].id, 7);
+    EXPECT_SAYS(later.notes.at(1), "1 of them, which were beyond a free side, left out");
+}
+
 TEST_F(EarlierRuns, WhatIsNotThereIsNamed) {
     write_case();
     EXPECT_SAYS(refusal_of("@0.4"), "has no output at 0.4 t_c");
