@@ -4,22 +4,17 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <charconv>
 #include <stdexcept>
+
+#include "coupler/protocol/number_text.hpp"
 
 namespace turbidite {
 namespace {
 
 template <class T>
 std::optional<T> parse_number(const std::string& text) {
-    const char* begin = text.data();
-    const char* end = begin + text.size();
-    // from_chars takes no plus sign.
-    if (begin != end && *begin == '+') ++begin;
-    T value{};
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    if (error != std::errc() || stop != end || begin == end) return std::nullopt;
-    return value;
+    // In a case a plus sign may stand before it.
+    return number_of<T>(text.rfind('+', 0) == 0 ? text.substr(1) : text);
 }
 
 // YAML writes `.nan`, `.inf`, `-.inf`.

@@ -113,10 +113,6 @@ std::vector<std::string> hosts_of_started(const std::filesystem::path& run) {
     return hosts;
 }
 
-std::string unbegun_text(double limit) {
-    return "mpirun has started no program of the job within limits.start = " + seconds(limit);
-}
-
 std::string late_start_text(StartStep step, const std::vector<StartRecord>& late, double limit) {
     if (late.empty())
         return "not all programs of the job have joined within limits.start = " + seconds(limit);

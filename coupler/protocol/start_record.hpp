@@ -48,9 +48,6 @@ std::vector<StartRecord> not_yet_at(StartStep step, const std::filesystem::path&
 /// The hosts of all programs that have been started, one for each; empty before the first.
 std::vector<std::string> hosts_of_started(const std::filesystem::path& run);
 
-/// "mpirun has started no program of the job within limits.start = 120 s".
-std::string unbegun_text(double limit);
-
 /// "nothing from grains rank 0 (program, host, pid, log) within limits.start = 120 s: it has not
 /// called MPI_Init".
 std::string late_start_text(StartStep step, const std::vector<StartRecord>& late, double limit);

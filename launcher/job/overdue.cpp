@@ -58,10 +58,7 @@ bool Overdue::has_not_begun() {
 }
 
 bool Overdue::operator()() {
-    if (has_not_begun()) {
-        fmt::print(stderr, "{}; it is killed\n", unbegun_text(settings_.real(start_limit)));
-        return true;
-    }
+    if (has_not_begun()) return true;  // told by settle_outcome
     if (!over_ && !is_over(folder_)) return false;
     if (!over_) over_ = Clock::now();
     if (!past(*over_, end_limit)) return false;

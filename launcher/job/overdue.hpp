@@ -17,7 +17,7 @@ namespace turbidite {
 bool played_here(const RunFolder& folder);
 
 /// For JobOrder::overdue: whether a job has not begun within limits.start, or not ended within
-/// limits.stall_hard of the end of its run; says so on stderr.
+/// limits.stall_hard of the end of its run, of which it says on stderr who stays.
 class Overdue {
  public:
     Overdue(RunFolder folder, Settings settings);

@@ -13,6 +13,16 @@ class AdapterTest : public ShellTest {
         return shell(std::string("timeout 390 ") + TURBIDITE_PROGRAM + " adapter-test " +
                      candidate);
     }
+
+    /// Of an adapter in Python with these members, besides name, version and host_code.
+    Answer judge_python(const std::string& options, const std::string& members) const {
+        scratch.write("mine.py",
+                      "import sys, turbidite_adapter as turbidite\n"
+                      "class Mine:\n"
+                      "    name, version, host_code = 'mine', '1', 'Python'\n" +
+                          members + "turbidite.run_grains(Mine(), sys.argv[-1])\n");
+        return judge(options + " -- /usr/bin/python3 mine.py");
+    }
 };
 
 class ShippedAdapter : public AdapterTest, public ::testing::WithParamInterface<const char*> {
@@ -244,28 +254,19 @@ TEST_F(AdapterTest, APythonProgramMayRepeatWindows) {
 }
 
 TEST_F(AdapterTest, AFaultOfADescriptionInPythonIsTold) {
-    scratch.write("mine.py",
-                  "import sys, turbidite_adapter as turbidite\n"
-                  "class Mine:\n"
-                  "    name, version, host_code = 'mine', '1', 'Python'\n"
-                  "    shapes, dimensions = ['sphere'], 3\n"
-                  "    initialise = advance = apply_kick = None\n"
-                  "turbidite.run_grains(Mine(), sys.argv[-1])\n");
-    const Answer answer = judge("--dimension 3 --only 'falls freely' -- /usr/bin/python3 mine.py");
+    const Answer answer = judge_python("--dimension 3 --only 'falls freely'",
+                                       "    shapes, dimensions = ['sphere'], 3\n"
+                                       "    initialise = advance = apply_kick = None\n");
     EXPECT_EQ(answer.code, 1) << answer.out << answer.err;
     EXPECT_SAYS(answer.out, "dimensions = 3; allowed are (2,), (3,) and (2, 3)");
 }
 
 // sys.exit in a program in Python is told by the library, not by the program.
 TEST_F(AdapterTest, AnExitIsNoRefusal) {
-    scratch.write("mine.py",
-                  "import sys, turbidite_adapter as turbidite\n"
-                  "class Mine:\n"
-                  "    name, version, host_code = 'mine', '1', 'Python'\n"
-                  "    def initialise(self, settings, shapes, grains): sys.exit(0)\n"
-                  "    advance = apply_kick = None\n"
-                  "turbidite.run_grains(Mine(), sys.argv[-1])\n");
-    const Answer answer = judge("--only friction -- /usr/bin/python3 mine.py");
+    const Answer answer =
+        judge_python("--only friction",
+                     "    def initialise(self, settings, shapes, grains): sys.exit(0)\n"
+                     "    advance = apply_kick = None\n");
     EXPECT_EQ(answer.code, 1) << answer.out << answer.err;
     EXPECT_SAYS(answer.out, "FAILS collides with friction");
     EXPECT_SAYS(answer.out, "SystemExit: 0");

@@ -108,8 +108,7 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
              },
              [](const PlacedGrain& g) { return fmt::format("density = {}", *g.density); },
              "Without coupling.scheme: joint, grains in a fluid must be denser than what it sees "
-             "of "
-             "them.",
+             "of them.",
              "Use coupling.scheme: joint, or a density above 1 (in space: (1 + fluid.surface_shift "
              "/ cells per radius)^5)."});
     return rules;

@@ -156,17 +156,21 @@ bool is_overfull(const PackingRequest& request) {
            share * region.width * region.height;
 }
 
-double smallest_radius(const PackingRequest& request) {
-    return 2.0 * mean_radius(request) / (1.0 + request.size_ratio);
+double smallest_radius_of(const PackingRequest& request) {
+    return smallest_radius(mean_radius(request), request.size_ratio);
 }
 
 }  // namespace
+
+double smallest_radius(double mean, double size_ratio) {
+    return 2.0 * mean / (1.0 + size_ratio);
+}
 
 std::vector<double> draw_radii(const PackingRequest& request, RandomNumbers& random) {
     std::vector<double> radii(static_cast<std::size_t>(request.count), mean_radius(request));
     if (request.size_ratio == 1.0) return radii;
     // 2 R/(1 + q) to 2 R q/(1 + q): the mean is R
-    const double smallest = smallest_radius(request);
+    const double smallest = smallest_radius_of(request);
     for (double& radius : radii) radius = random.uniform(smallest, smallest * request.size_ratio);
     // Large ones first: small ones find room between them later.
     std::sort(radii.begin(), radii.end(), std::greater<>());
@@ -180,7 +184,7 @@ double solid_volume(const std::vector<double>& radii) {
 }
 
 double least_solid_fraction(const PackingRequest& request) {
-    return static_cast<double>(request.count) * solid_volume({smallest_radius(request)}) /
+    return static_cast<double>(request.count) * solid_volume({smallest_radius_of(request)}) /
            request.filled().volume();
 }
 

@@ -18,6 +18,9 @@
 
 namespace turbidite {
 
+/// Radii lie between 2 R/(1 + q) and 2 R q/(1 + q): their mean is R, largest over smallest q.
+double smallest_radius(double mean, double size_ratio);
+
 /// Radii of grains.count grains by grains.radius and grains.size_ratio, from the largest to the
 /// smallest [D].
 std::vector<double> draw_radii(const PackingRequest& request, RandomNumbers& random);
