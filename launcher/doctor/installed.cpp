@@ -40,6 +40,13 @@ Software python_module(const std::string& name, const Programs& programs) {
             "unset PYTHONPATH"};
 }
 
+/// The library alone suffices where nothing is compiled.
+Software lammps(const Programs& programs) {
+    const std::string package = programs.installed ? "liblammps0" : "liblammps-dev";
+    const std::string query = "dpkg-query --show --showformat='version ${Version}' " + package;
+    return {"LAMMPS", package, {"sh", "-c", query + " || exit 127"}, "version "};
+}
+
 Findings look_at_all(const std::vector<Software>& list) {
     Findings findings;
     for (const Software& software : list) findings.push_back(look_at(software));
@@ -57,12 +64,7 @@ Findings installed_software(const LaunchSite& site) {
                          "unset WM_PROJECT_DIR",
                          "; spheres in space are played without it (docs/box-program.md)"},
                         {"YADE", "yade", {programs.yade(), "--version"}, "Yade version: "},
-                        {"LAMMPS",
-                         "liblammps-dev",
-                         {"sh", "-c",
-                          "dpkg-query --show --showformat='version ${Version}' liblammps-dev || "
-                          "exit 127"},
-                         "version "},
+                        lammps(programs),
                         {"Open MPI",
                          "openmpi-bin",
                          {"mpirun", "--version"},

@@ -47,6 +47,19 @@ TEST_F(Installed, PlaysAShippedCaseByItsNameAndWritesItsReport) {
     EXPECT_SAYS(doctor.out, "turbidite_yade.so           installed");
 }
 
+// The package depends on LAMMPS' library alone, a source tree on its headers, too.
+TEST_F(Installed, IsWholeWithoutHeaders) {
+    scratch.write("bin/dpkg-query",
+                  "#!/bin/sh\n"
+                  "case $* in *-dev*) exit 1 ;; esac\n"
+                  "exec /usr/bin/dpkg-query \"$@\"\n");
+    fs::permissions(scratch.path() / "bin/dpkg-query", fs::perms::owner_all);
+    const Answer doctor =
+        shell("env -i PATH=$PWD/bin:/usr/bin:/bin HOME=$PWD usr/bin/turbidite doctor --no-job");
+    EXPECT_EQ(doctor.code, 0) << doctor.out;
+    EXPECT_SAYS(doctor.out, "ok      LAMMPS");
+}
+
 // A file that names the build would work here and nowhere else.
 TEST_F(Installed, KnowsNothingOfTheBuild) {
     const Answer paths = shell(
