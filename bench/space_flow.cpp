@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <random>
 
 #include "coupler/protocol/splitting.hpp"
@@ -21,7 +22,7 @@
 namespace turbidite {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// Lengths are in D, masses in rho_f D^3.
 struct Flow {

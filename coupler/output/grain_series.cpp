@@ -11,7 +11,7 @@
 namespace turbidite {
 namespace {
 
-constexpr auto series_name = "grains.pvd";
+constexpr auto grains_collection = "grains.pvd";
 
 std::filesystem::path made(std::filesystem::path folder) {
     std::filesystem::create_directories(folder);
@@ -21,11 +21,11 @@ std::filesystem::path made(std::filesystem::path folder) {
 }  // namespace
 
 GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes)
-    : GrainSeries(folder, shapes, vtk::Collection(made(folder) / series_name)) {}
+    : GrainSeries(folder, shapes, vtk::Collection(made(folder) / grains_collection)) {}
 
 GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes,
                          std::int64_t length)
-    : GrainSeries(folder, shapes, vtk::Collection(folder / series_name, length)) {}
+    : GrainSeries(folder, shapes, vtk::Collection(folder / grains_collection, length)) {}
 
 GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes,
                          vtk::Collection series)

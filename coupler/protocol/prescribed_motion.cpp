@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -13,10 +14,10 @@
 namespace turbidite {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// The numbers of a motion's text, in the plane or in space.
-struct Numbers {
+struct MotionNumbers {
     std::vector<double> all;
     int dimension = 2;
 
@@ -41,7 +42,7 @@ struct Numbers {
 class Constant final : public PrescribedMotion {
  public:
     explicit Constant(const Twist& rate) : rate_(rate) {}
-    explicit Constant(const Numbers& numbers) {
+    explicit Constant(const MotionNumbers& numbers) {
         numbers.require(numbers.per_shift());
         const Shift in_unit_time = numbers.shift();
         // v and w are the displacement and the angle after one unit of time.
@@ -58,7 +59,7 @@ class Constant final : public PrescribedMotion {
 /// `harmonic X Y ANGLE PERIOD PHASE`.
 class Harmonic final : public PrescribedMotion {
  public:
-    explicit Harmonic(const Numbers& numbers) {
+    explicit Harmonic(const MotionNumbers& numbers) {
         numbers.require(numbers.per_shift() + 2);
         amplitude_ = numbers.shift();
         period_ = numbers.at(numbers.per_shift());
@@ -79,7 +80,7 @@ class Harmonic final : public PrescribedMotion {
 /// `table T X Y ANGLE T X Y ANGLE ...`, with times ascending from 0.
 class Table final : public PrescribedMotion {
  public:
-    explicit Table(const Numbers& numbers) {
+    explicit Table(const MotionNumbers& numbers) {
         const std::size_t per_row = 1 + numbers.per_shift();
         if (numbers.all.empty() || numbers.all.size() % per_row != 0)
             throw std::invalid_argument(per_row == 4
@@ -110,13 +111,13 @@ class Table final : public PrescribedMotion {
 };
 
 template <class Motion>
-std::shared_ptr<const PrescribedMotion> make(const Numbers& numbers) {
+std::shared_ptr<const PrescribedMotion> make(const MotionNumbers& numbers) {
     return std::make_shared<Motion>(numbers);
 }
 
 struct MotionEntry {
     const char* kind;
-    std::shared_ptr<const PrescribedMotion> (*make)(const Numbers&);
+    std::shared_ptr<const PrescribedMotion> (*make)(const MotionNumbers&);
 };
 constexpr MotionEntry motion_list[] = {
     {"constant", make<Constant>}, {"harmonic", make<Harmonic>}, {"table", make<Table>}};
@@ -131,7 +132,7 @@ Moved motion_of(const std::string& text, const std::string& key, int dimension) 
         throw std::invalid_argument(key + ": \"" + text + "\" is not a motion: " + fault);
     };
     try {
-        const Numbers numbers{remaining_numbers(in), dimension};
+        const MotionNumbers numbers{remaining_numbers(in), dimension};
         for (const MotionEntry& entry : motion_list)
             if (kind == entry.kind) return {what, entry.make(numbers)};
     } catch (const std::invalid_argument& fault) {

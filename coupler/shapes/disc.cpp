@@ -2,10 +2,11 @@
 #include "coupler/shapes/disc.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace turbidite {
 namespace {
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 }
 
 double Disc::volume(double radius) const {

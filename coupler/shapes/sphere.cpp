@@ -2,11 +2,12 @@
 #include "coupler/shapes/sphere.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace turbidite {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// The largest number of points on a circle of this radius with chords 2 r sin(pi / n) >= spacing;
 /// at least one.

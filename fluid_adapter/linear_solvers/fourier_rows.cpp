@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
 namespace turbidite {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 [[noreturn]] void no_plan(int length) {
     throw std::runtime_error("FFTW could not create a plan for rows of " + std::to_string(length));

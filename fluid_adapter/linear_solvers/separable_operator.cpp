@@ -2,13 +2,14 @@
 #include "fluid_adapter/linear_solvers/separable_operator.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
 namespace turbidite {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// Contribution of the mirror image beyond an end to the diagonal, in units of 1/h2.
 double end_share(End end) {

@@ -59,13 +59,13 @@ double share_of(const CellGrid& grid, const ImmersedGrain& grain, const CellInde
                                : share_of_cell(grid, grain, cell[0], cell[1]);
 }
 
-/// Layers between which a grain reaches; they may lie beyond a cyclic side.
-struct Layers {
+/// LayerRange between which a grain reaches; they may lie beyond a cyclic side.
+struct LayerRange {
     CellIndex first{}, last{};
 };
 
-Layers layers_of(const CellGrid& grid, const ImmersedGrain& grain) {
-    Layers layers;
+LayerRange layers_reached_by(const CellGrid& grid, const ImmersedGrain& grain) {
+    LayerRange layers;
     for (int axis = 0; axis < grid.dimension; ++axis) {
         layers.first[axis] = grid.layer(axis, grain.position[axis] - grain.radius);
         layers.last[axis] = grid.layer(axis, grain.position[axis] + grain.radius);
@@ -75,7 +75,7 @@ Layers layers_of(const CellGrid& grid, const ImmersedGrain& grain) {
 
 void cover(const FluidField& field, const ImmersedGrain& grain, std::vector<double>& shares) {
     const CellGrid& grid = field.grid();
-    const auto [first, last] = layers_of(grid, grain);
+    const auto [first, last] = layers_reached_by(grid, grain);
     // The place of a cell is that of the index before it is wrapped: the image at this grain.
     for (int j = first[1]; j <= last[1]; ++j)
         for (int k = first[2]; k <= last[2]; ++k)

@@ -2,11 +2,12 @@
 #include "fluid_adapter/multiplier/immersed_plates.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace turbidite {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr int corners_of_end = 9;
 
 /// A strip along x with a half circle at each end, with half its whole length as unit.

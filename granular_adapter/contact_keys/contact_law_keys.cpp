@@ -72,7 +72,7 @@ std::string without_restitution(const Settings& s) {
     return "without a restitution";
 }
 
-void notes(const Settings& s, std::vector<std::string>& notes) {
+void law_notes(const Settings& s, std::vector<std::string>& notes) {
     if (s.text("contact.impact") == "newton" && s.real("contact.restitution") > 0.0 &&
         s.real("contact.friction") > 0.0)
         notes.push_back(
@@ -199,7 +199,7 @@ KeyGroup contact_law_keys() {
                    moreau_has_one_restitution},
                   {"contact.rolling_friction", {"grains.shape"}, only_discs_resist_rolling},
                   {"contact.adhesion_range", {"contact.adhesion"}, range_of_neighbours}},
-        .notes = notes};
+        .notes = law_notes};
 }
 
 }  // namespace turbidite

@@ -22,7 +22,7 @@ std::string without_recovery(const Settings& s) {
     return s.real("contact.recovery_fraction") == 0.0 ? "with contact.recovery_fraction: 0" : "";
 }
 
-void notes(const Settings& s, std::vector<std::string>& notes) {
+void problem_notes(const Settings& s, std::vector<std::string>& notes) {
     // The solver begins with 8000 sweeps
     // (granular_adapter/nscd/solvers/plane/central_path_solver.cpp).
     if (constexpr std::int64_t enough = 20000;
@@ -97,7 +97,7 @@ KeyGroup contact_problem_keys() {
                  .contacts = Contacts::rigid},
             },
         .rules = {{"contact.dump_interval", {"contact.rolling_friction"}, dumps_know_rolling}},
-        .notes = notes};
+        .notes = problem_notes};
 }
 
 KeyTable contact_key_table() {

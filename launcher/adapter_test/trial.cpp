@@ -58,7 +58,7 @@ std::string case_of(const Candidate& candidate) {
 constexpr double middle = 2.0;  // of the depth [D]
 
 /// A table of grains in the plane, with a column z after y.
-std::string in_the_middle(const std::string& table) {
+std::string in_middle_depth(const std::string& table) {
     std::istringstream rows(table);
     std::string result;
     for (std::string row; std::getline(rows, row);) {
@@ -174,7 +174,7 @@ Trial play_trial(const Candidate& candidate, const TrialCase& trial,
     const auto root = folder / trial.name;
     std::filesystem::create_directories(root);
     write(root / "grains.csv",
-          candidate.dimension == 3 ? in_the_middle(trial.grains) : trial.grains);
+          candidate.dimension == 3 ? in_middle_depth(trial.grains) : trial.grains);
     write(root / "trial.yaml", case_of(candidate));
     const ResolvedCase resolved = load_case(root / "trial.yaml", overrides_of(candidate, trial));
     const PreparedRun prepared = prepare(resolved, {root / "run", true}, site_for(candidate));

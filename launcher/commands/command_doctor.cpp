@@ -34,34 +34,34 @@ const char* word(Health health) {
     }
 }
 
-void print(const Finding& finding) {
+void print(const Diagnosis& diagnosis) {
     std::string lines =
-        fmt::format("{:<8}{:<28}{}\n", word(finding.health), finding.name, finding.text);
-    if (!finding.remedy.empty()) lines += fmt::format("        {}\n", finding.remedy);
+        fmt::format("{:<8}{:<28}{}\n", word(diagnosis.health), diagnosis.name, diagnosis.text);
+    if (!diagnosis.remedy.empty()) lines += fmt::format("        {}\n", diagnosis.remedy);
     fmt::print("{}", for_stdout(lines));
     std::fflush(stdout);
 }
 
-bool any(const Findings& findings, Health health) {
-    return std::any_of(findings.begin(), findings.end(),
-                       [&](const Finding& finding) { return finding.health == health; });
+bool any(const Diagnoses& diagnoses, Health health) {
+    return std::any_of(diagnoses.begin(), diagnoses.end(),
+                       [&](const Diagnosis& diagnosis) { return diagnosis.health == health; });
 }
 
-/// Prints as it finds, since some findings take seconds.
+/// Prints as it finds, since some diagnoses take seconds.
 class Sheet {
  public:
-    void add(const Findings& findings) {
-        for (const Finding& finding : findings) print(finding);
-        all_.insert(all_.end(), findings.begin(), findings.end());
+    void add(const Diagnoses& diagnoses) {
+        for (const Diagnosis& diagnosis : diagnoses) print(diagnosis);
+        all_.insert(all_.end(), diagnoses.begin(), diagnoses.end());
     }
 
     bool any(Health health) const { return turbidite::any(all_, health); }
 
  private:
-    Findings all_;
+    Diagnoses all_;
 };
 
-Finding job_of(const Sheet& sheet, const LaunchSite& site) {
+Diagnosis job_of(const Sheet& sheet, const LaunchSite& site) {
     if (sheet.any(Health::missing))
         return {Health::not_tried, "coupled job", "needs what is missing", ""};
     return play_short_job(site);
@@ -76,12 +76,12 @@ int examine(const DoctorOptions& options) {
     const LaunchSite site = this_site();
     Sheet sheet;
     sheet.add(installed_software(site));
-    const Findings built = built_programs(site.programs);
+    const Diagnoses built = built_programs(site.programs);
     sheet.add(built);
     if (!site.programs.installed && any(built, Health::missing)) sheet.add(build_tools());
     sheet.add(state_of_machine(site));
     const bool ready = !sheet.any(Health::missing) && !sheet.any(Health::wrong);
-    Finding job{Health::not_tried, "coupled job", "--no-job", ""};
+    Diagnosis job{Health::not_tried, "coupled job", "--no-job", ""};
     if (!options.no_job) job = job_of(sheet, site);
     sheet.add({job});
     if (job.health == Health::wrong)

@@ -13,14 +13,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // Scripts are copied when the build is configured, programs and modules are linked.
-Finding missing_file(const fs::path& file, bool installed) {
+Diagnosis missing_file(const fs::path& file, bool installed) {
     if (installed) return {Health::missing, file.filename(), "not installed", reinstall_command};
     const std::string again =
         file.extension() == ".py" ? std::string("rm -f build/release/.configured; ") : "";
     return {Health::missing, file.filename(), "not built", again + build_command};
 }
 
-Finding look_at(const fs::path& file, bool installed) {
+Diagnosis look_at(const fs::path& file, bool installed) {
     if (!fs::exists(file)) return missing_file(file, installed);
     const LoadedLibraries libraries = loaded_libraries(file);
     if (libraries.absent.empty())
@@ -60,7 +60,7 @@ std::string libmpi_remedy(bool installed) {
     return installed ? reinstall_command : std::string("rm -r build/release; ") + build_command;
 }
 
-Finding one_libmpi(std::vector<fs::path> files, const fs::path& mpi4py, bool installed) {
+Diagnosis one_libmpi(std::vector<fs::path> files, const fs::path& mpi4py, bool installed) {
     if (!mpi4py.empty()) files.push_back(mpi4py);
     std::set<std::string> found;
     for (const fs::path& file : files) {
@@ -76,12 +76,12 @@ Finding one_libmpi(std::vector<fs::path> files, const fs::path& mpi4py, bool ins
 
 }  // namespace
 
-Findings built_programs(const Programs& programs) {
+Diagnoses built_programs(const Programs& programs) {
     const std::vector<fs::path> files = files_of_build(programs);
-    Findings findings;
-    for (const fs::path& file : files) findings.push_back(look_at(file, programs.installed));
-    findings.push_back(one_libmpi(files, mpi4py_module(programs), programs.installed));
-    return findings;
+    Diagnoses diagnoses;
+    for (const fs::path& file : files) diagnoses.push_back(look_at(file, programs.installed));
+    diagnoses.push_back(one_libmpi(files, mpi4py_module(programs), programs.installed));
+    return diagnoses;
 }
 
 }  // namespace turbidite

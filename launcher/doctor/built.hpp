@@ -3,12 +3,12 @@
 // The programs and modules of the build, the libraries they load, and that all load the same MPI.
 #pragma once
 
-#include "launcher/doctor/finding.hpp"
+#include "launcher/doctor/diagnosis.hpp"
 #include "launcher/job/programs.hpp"
 
 namespace turbidite {
 
-/// One finding per file of the build, then one about libmpi.
-Findings built_programs(const Programs& programs);
+/// One diagnosis per file of the build, then one about libmpi.
+Diagnoses built_programs(const Programs& programs);
 
 }  // namespace turbidite

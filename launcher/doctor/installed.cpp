@@ -19,7 +19,7 @@ bool is_missing(const CommandOutput& output) {
     return output.code == 127 || output.text.find("ModuleNotFoundError") != std::string::npos;
 }
 
-Finding look_at(const Software& software) {
+Diagnosis look_at(const Software& software) {
     const CommandOutput output = output_of(software.command);
     const std::string remedy = install_command(software.package);
     if (is_missing(output))
@@ -47,15 +47,15 @@ Software lammps(const Programs& programs) {
     return {"LAMMPS", package, {"sh", "-c", query + " || exit 127"}, "version "};
 }
 
-Findings look_at_all(const std::vector<Software>& list) {
-    Findings findings;
-    for (const Software& software : list) findings.push_back(look_at(software));
-    return findings;
+Diagnoses look_at_all(const std::vector<Software>& list) {
+    Diagnoses diagnoses;
+    for (const Software& software : list) diagnoses.push_back(look_at(software));
+    return diagnoses;
 }
 
 }  // namespace
 
-Findings installed_software(const LaunchSite& site) {
+Diagnoses installed_software(const LaunchSite& site) {
     const Programs& programs = site.programs;
     return look_at_all({{"OpenFOAM",
                          "openfoam",
@@ -76,7 +76,7 @@ Findings installed_software(const LaunchSite& site) {
                         python_module("mpi4py", programs)});
 }
 
-Findings build_tools() {
+Diagnoses build_tools() {
     return look_at_all({{"g++", "g++", {"g++", "--version"}, ") "},
                         {"CMake", "cmake", {"cmake", "--version"}, "version "},
                         {"Ninja", "ninja-build", {"ninja", "--version"}, ""}});

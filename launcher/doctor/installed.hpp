@@ -3,15 +3,15 @@
 // The software of others that a run and its report need, with its versions.
 #pragma once
 
-#include "launcher/doctor/finding.hpp"
+#include "launcher/doctor/diagnosis.hpp"
 #include "launcher/job/launch_line.hpp"
 
 namespace turbidite {
 
 /// OpenFOAM, YADE, Open MPI, and the Python modules of report and adapters.
-Findings installed_software(const LaunchSite& site);
+Diagnoses installed_software(const LaunchSite& site);
 
 /// Compiler, CMake and Ninja: of interest only if something is not built.
-Findings build_tools();
+Diagnoses build_tools();
 
 }  // namespace turbidite

@@ -7,15 +7,15 @@
 #include <fstream>
 #include <string>
 
+#include "launcher/case/forecast/gigabyte.hpp"
 #include "launcher/doctor/command_output.hpp"
 
 namespace turbidite {
 namespace {
 
-constexpr double gigabyte = 1e9;
 constexpr double enough = gigabyte;  // of memory, compiling one OpenFOAM source takes as much
 
-Finding free_disk() {
+Diagnosis free_disk() {
     std::error_code error;
     const auto space = std::filesystem::space(".", error);
     if (error) return {Health::wrong, "free disk", error.message(), "df -h ."};
@@ -33,7 +33,7 @@ double memory(const std::string& name) {
     return 0.0;
 }
 
-Finding free_memory() {
+Diagnosis free_memory() {
     const double available = memory("MemAvailable");
     return {available < enough ? Health::wrong : Health::ok, "free memory",
             fmt::format("{:.1f} of {:.1f} GB", available / gigabyte, memory("MemTotal") / gigabyte),
@@ -41,7 +41,7 @@ Finding free_memory() {
 }
 
 /// Starts two processes as a run does: mpirun refuses root and too many ranks without options.
-Finding mpirun_starts(const LaunchSite& site) {
+Diagnosis mpirun_starts(const LaunchSite& site) {
     std::vector<std::string> line = mpirun_options(site);
     line.insert(line.end(), {"-n", "2", "true"});
     const CommandOutput output = output_of(line);
@@ -54,7 +54,7 @@ Finding mpirun_starts(const LaunchSite& site) {
 
 }  // namespace
 
-Findings state_of_machine(const LaunchSite& site) {
+Diagnoses state_of_machine(const LaunchSite& site) {
     return {free_disk(), free_memory(), mpirun_starts(site)};
 }
 

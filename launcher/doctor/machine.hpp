@@ -3,11 +3,11 @@
 // What the machine leaves to a run: free disk and memory, and whether mpirun may start programs.
 #pragma once
 
-#include "launcher/doctor/finding.hpp"
+#include "launcher/doctor/diagnosis.hpp"
 #include "launcher/job/launch_line.hpp"
 
 namespace turbidite {
 
-Findings state_of_machine(const LaunchSite& site);
+Diagnoses state_of_machine(const LaunchSite& site);
 
 }  // namespace turbidite

@@ -45,7 +45,7 @@ std::string fault(const PreparedRun& prepared) {
                : first_words(outcome.error.substr(0, outcome.error.find(';')));
 }
 
-Finding play(const LaunchSite& site, const std::filesystem::path& folder) {
+Diagnosis play(const LaunchSite& site, const std::filesystem::path& folder) {
     const auto begin = std::chrono::steady_clock::now();
     const ResolvedCase resolved =
         load_case(site.programs.configs() / "quickstart.yaml", few_grains);
@@ -62,7 +62,7 @@ Finding play(const LaunchSite& site, const std::filesystem::path& folder) {
 
 }  // namespace
 
-Finding play_short_job(const LaunchSite& site) {
+Diagnosis play_short_job(const LaunchSite& site) {
     const TemporaryFolder folder("doctor");
     try {
         return play(site, folder.path());

@@ -4,12 +4,12 @@
 // through OpenFOAM, YADE and the coupler, in a temporary folder.
 #pragma once
 
-#include "launcher/doctor/finding.hpp"
+#include "launcher/doctor/diagnosis.hpp"
 #include "launcher/job/launch_line.hpp"
 
 namespace turbidite {
 
 /// Throws Failure (exit code 130) if a signal stopped it.
-Finding play_short_job(const LaunchSite& site);
+Diagnosis play_short_job(const LaunchSite& site);
 
 }  // namespace turbidite

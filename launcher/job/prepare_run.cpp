@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_plain(char c) {
+bool fits_a_name(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
 }
 
@@ -42,7 +42,7 @@ bool is_plain(char c) {
 // creates the folder owns it.
 fs::path fresh_folder(std::string case_name) {
     std::replace_if(
-        case_name.begin(), case_name.end(), [](char c) { return !is_plain(c); }, '_');
+        case_name.begin(), case_name.end(), [](char c) { return !fits_a_name(c); }, '_');
     const fs::path wanted = fs::path("runs") / (case_name + "-" + local_time("%Y%m%d-%H%M%S"));
     fs::create_directories("runs");
     fs::path folder = wanted;

@@ -34,11 +34,18 @@ code=0
 output=$(cd / && PATH="$work/bin:$PATH" TURBIDITE_NO_INSTALL=1 "$work/a link" --version 2>&1) || code=$?
 
 [[ $code == 2 ]] || broken "exit code $code, expected 2"
-for package in cmake openfoam ninja-build libgtest-dev; do
+for package in cmake openfoam ninja-build; do
     grep -q "^$package  *[A-Za-z]" <<<"$output" || broken "$package is not listed with its reason"
     grep -q "apt-get install .* $package\( \|$\)" <<<"$output" || broken "$package is not in the command"
 done
 if grep -qE '^(yade|g\+\+) ' <<<"$output"; then broken "an installed package is called missing"; fi
+if grep -qE '^libgtest-dev ' <<<"$output"; then broken "a run needs no package of tests"; fi
+for command in test bench docs; do
+    output=$(cd / && PATH="$work/bin:$PATH" TURBIDITE_NO_INSTALL=1 "$work/a link" $command 2>&1) || true
+    for package in cmake libgtest-dev; do
+        grep -q "^$package  *[A-Za-z]" <<<"$output" || broken "\"$command\": $package is not listed"
+    done
+done
 [[ ! -e $work/installed ]] || broken "an installer was called although TURBIDITE_NO_INSTALL forbids it"
 
 # ---- a machine with all packages, and a build folder whose targets only record that they were built ----
@@ -51,7 +58,7 @@ build="$work/a checkout/build/release"
 mkdir -p "$build/bin" "$work/headers"
 printf '#!/bin/bash\necho "arguments: $*"\nexit 5\n' >"$build/bin/turbidite"
 chmod +x "$build/bin/turbidite"
-printf 'root %s\nheaders %s\n' "$work/a checkout" "$work/headers" >"$build/.configured"
+printf 'root %s\nheaders %s\nwith tests\n' "$work/a checkout" "$work/headers" >"$build/.configured"
 cat >"$build/build.ninja" <<NINJA
 rule write
   command = echo \$out >>"$work/built"

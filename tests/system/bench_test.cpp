@@ -4,12 +4,11 @@
 // not tested.
 #include <cmath>
 
+#include "tests/system/program.hpp"
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
 namespace {
-
-const std::string program = TURBIDITE_PROGRAM;
 
 class Bench : public ShellTest {
  protected:

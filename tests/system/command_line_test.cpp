@@ -9,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/system/program.hpp"
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
@@ -16,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string program = TURBIDITE_PROGRAM;
 const std::string quickstart = TURBIDITE_SOURCE_DIR "/configs/quickstart.yaml";
 // An immersed job with small windows, without YADE.
 const std::string small = " --set grains.adapter=standalone-nscd --set fluid.cells_per_diameter=4";

@@ -6,12 +6,11 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/system/program.hpp"
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
 namespace {
-
-const std::string program = TURBIDITE_PROGRAM;
 
 constexpr auto triangles = R"(
 domain: {size: [9, 14]}

@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "tests/system/history_columns.hpp"
+#include "tests/system/program.hpp"
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::string program = TURBIDITE_PROGRAM;
 
 class MolecularDynamics : public ShellTest {
  protected:

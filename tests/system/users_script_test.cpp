@@ -4,12 +4,11 @@
 // refused.
 #include <sstream>
 
+#include "tests/system/program.hpp"
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
 namespace {
-
-const std::string program = TURBIDITE_PROGRAM;
 
 constexpr auto wet_case = R"(
 domain: {size: [6, 6], left: wall, right: wall, bottom: wall, top: wall}

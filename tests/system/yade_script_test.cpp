@@ -6,12 +6,11 @@
 #include <sstream>
 
 #include "granular_adapter/nscd/engine/engine.hpp"
+#include "tests/system/program.hpp"
 #include "tests/system/shell_test.hpp"
 
 namespace turbidite {
 namespace {
-
-const std::string program = TURBIDITE_PROGRAM;
 
 constexpr int rows = 6, columns = 5, steps = 400;
 constexpr double step = 4e-3, density = 2500.0, rough = 0.6, smooth = 0.1;

@@ -58,9 +58,9 @@ void add_run(Moments& sums, const CellRun& run, double h) {
 }
 
 /// Sums of v and r x v over the cells of a grain, weighted as in Moments.
-class CellSums {
+class ShareSums {
  public:
-    explicit CellSums(double h) : h_(h) {}
+    explicit ShareSums(double h) : h_(h) {}
 
     /// Adds a run with `value(c)` in its cell c, where r = first + c h e_x.
     template <class Value>
@@ -170,7 +170,7 @@ std::vector<InteriorConstraint::Six> InteriorConstraint::sum_velocity(
     const double h = field_.grid().spacing[0], m = field_.reference_mass();
     std::vector<Six> sums(grains_->size());
     for (std::size_t g = 0; g < sums.size(); ++g) {
-        CellSums of_cells(h);
+        ShareSums of_cells(h);
         for (const CellRun& run : cells_.runs(g)) {
             const double *ux = u[0] + run.cell, *uy = u[1] + run.cell, *uz = u[2] + run.cell;
             of_cells.add(run, [&](int c) { return Vector(ux[c], uy[c], uz[c]); });
@@ -191,7 +191,7 @@ std::vector<InteriorConstraint::Six> InteriorConstraint::carry(
         // u_c = U + omega x r, by one step from cell to cell of a run
         const Vector spin = motions[g].tail<3>();
         const Vector step = h * spin.cross(Vector::UnitX());  // of U + omega x r along a run
-        CellSums off(h);
+        ShareSums off(h);
         for (const CellRun& run : cells_.runs(g)) {
             const Vector first = motions[g].head<3>() + spin.cross(run.first);
             double *ux = u[0] + run.cell, *uy = u[1] + run.cell, *uz = u[2] + run.cell;

@@ -10,6 +10,7 @@
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/run_values.hpp"
+#include "launcher/case/forecast/gigabyte.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
 #include "launcher/case/slices.hpp"
@@ -33,7 +34,6 @@ constexpr double of_disc = 430.0, of_polygon = 700.0, of_sphere = 900.0;
 constexpr double of_grain_checkpoint = 900.0;
 
 constexpr double of_history_row = 550.0;
-constexpr double gigabyte = 1e9;
 
 double words(const std::string& text) {
     std::istringstream input(text);

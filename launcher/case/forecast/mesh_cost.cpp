@@ -7,6 +7,7 @@
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/mesh_rows.hpp"
 #include "coupler/protocol/splitting.hpp"
+#include "launcher/case/forecast/gigabyte.hpp"
 
 namespace turbidite {
 namespace {
@@ -20,7 +21,6 @@ struct ProgramMemory {
 };
 constexpr ProgramMemory of_openfoam{750.0, 80.0, 190.0, 1e8};
 constexpr ProgramMemory of_box{95.0, 95.0, 150.0, 5e7};
-constexpr double gigabyte = 1e9;
 
 }  // namespace
 

@@ -14,6 +14,7 @@
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/protocol/splitting.hpp"
 #include "coupler/shapes/shape.hpp"
+#include "launcher/case/forecast/gigabyte.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 
@@ -62,7 +63,6 @@ constexpr double seconds_per_cell = 6e-6;  // blockMesh, and reading its mesh
 constexpr double of_coupler = 2e7, of_coupler_per_grain = 2800.0;
 constexpr double of_coupler_per_sphere = 5000.0;  // with the voxels of its pores
 constexpr double of_yade = 2.5e8, of_other_hosts = 3e7, of_host_per_grain = 5000.0;
-constexpr double gigabyte = 1e9;
 
 double count(const ResolvedCase& resolved) {
     return static_cast<double>(resolved.population.size());

@@ -17,11 +17,10 @@ namespace turbidite {
 namespace {
 
 constexpr double clamping_distance = 1e-3;  // in compacity; the paper rounds to three digits
-constexpr double rounding = 1e-9;           // [D] lets an exact fit survive rounding
 
 void fill_row(Packing& grains, double first, double y, const PackingRequest& request, double a) {
     // x from 1/2 (odd rows 1/2 + a/2) while x + 1/2 <= W
-    for (int i = 0; first + i * a + 0.5 <= request.filled().width + rounding; ++i)
+    for (int i = 0; first + i * a + 0.5 <= request.filled().width + fit_rounding; ++i)
         grains.push_back({.id = static_cast<GrainId>(grains.size()), .x = first + i * a, .y = y});
 }
 
@@ -29,7 +28,7 @@ Packing fill_region(const PackingRequest& request, double a) {
     Packing grains;
     // Neighbours in adjacent rows touch: (a/2)^2 + height^2 = 1.
     const double height = std::sqrt(1.0 - a * a / 4.0);
-    for (int k = 0; 0.5 + k * height + 0.5 <= request.filled().height + rounding; ++k)
+    for (int k = 0; 0.5 + k * height + 0.5 <= request.filled().height + fit_rounding; ++k)
         fill_row(grains, k % 2 == 0 ? 0.5 : 0.5 + a / 2.0, 0.5 + k * height, request, a);
     return grains;
 }

@@ -21,14 +21,12 @@ double largest_radius(const Packing& grains) {
 
 namespace {
 
-constexpr double rounding = 1e-9;  // [D] lets an exact fit survive rounding
-
 bool is_within(const PackingCylinder& cylinder, const Vec3& place, double radius) {
     const Vec3 axis = cylinder.to - cylinder.from, arm = place - cylinder.from;
     const double length = norm(axis), height = dot(arm, axis) / length;
-    return height >= radius - rounding && height <= length - radius + rounding &&
+    return height >= radius - fit_rounding && height <= length - radius + fit_rounding &&
            // The sphere is inside both ends, and its centre no nearer to the shell than its radius.
-           norm(arm - (height / length) * axis) <= cylinder.radius - radius + rounding;
+           norm(arm - (height / length) * axis) <= cylinder.radius - radius + fit_rounding;
 }
 
 PackingResult not_poured_in_the_plane(const PackingRequest&) {
@@ -50,9 +48,9 @@ double PackingRegion::volume() const {
 bool PackingRegion::holds(const Vec3& place, double radius) const {
     if (cylinder) return is_within(*cylinder, place, radius);
     const Vec3 at = place - corner;
-    return at[0] >= radius - rounding && at[0] + radius <= width + rounding &&
-           at[1] >= radius - rounding && at[1] + radius <= height + rounding &&
-           at[2] >= radius - rounding && at[2] + radius <= depth + rounding;
+    return at[0] >= radius - fit_rounding && at[0] + radius <= width + fit_rounding &&
+           at[1] >= radius - fit_rounding && at[1] + radius <= height + fit_rounding &&
+           at[2] >= radius - fit_rounding && at[2] + radius <= depth + fit_rounding;
 }
 
 /// A circle normal to the unit vector e extends by R sqrt(1 - e_i^2) along axis i.

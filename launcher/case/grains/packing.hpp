@@ -15,6 +15,9 @@ namespace turbidite {
 
 struct GrainForms;
 
+/// Lets an exact fit survive rounding [D].
+constexpr double fit_rounding = 1e-9;
+
 struct PlacedGrain {
     GrainId id = 0;
     double x = 0.0;                       ///< [D]

@@ -20,9 +20,7 @@ namespace {
 
 constexpr std::array gaps{0.1, 0.05, 0.02, 0.005, 0.0};  // [D] tried in this order
 constexpr double least_gap = 0.005;                      // for grains other than unit discs
-constexpr int attempts_per_grain = 500;
 constexpr int shaking_sweeps = 100;
-constexpr double shaking_distance = 0.2;  // [D]
 
 const GrainForm* form_of(const PackingRequest& request) {
     return request.forms ? &request.forms->forms[0] : nullptr;

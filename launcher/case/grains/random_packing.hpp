@@ -18,6 +18,9 @@
 
 namespace turbidite {
 
+constexpr int attempts_per_grain = 500;
+constexpr double shaking_distance = 0.2;  // [D]
+
 /// Radii lie between 2 R/(1 + q) and 2 R q/(1 + q): their mean is R, largest over smallest q.
 double smallest_radius(double mean, double size_ratio);
 

@@ -17,14 +17,12 @@
 namespace turbidite {
 namespace {
 
-constexpr std::array gaps{0.1, 0.05, 0.02, 0.005};  // [D] tried in this order
-constexpr int attempts_per_grain = 500;
-constexpr int shaking_sweeps = 30;
-constexpr double shaking_distance = 0.2;  // [D]
+constexpr std::array space_gaps{0.1, 0.05, 0.02, 0.005};  // [D] tried in this order
+constexpr int sphere_sweeps = 30;
 // Random sequential addition of equal spheres ends at 0.38; from here on most attempts fail.
 constexpr double one_by_one_fraction = 0.3;
 
-PlacedGrain random_place(const PackingRegion& region, double edge, RandomNumbers& random) {
+PlacedGrain random_place_in_space(const PackingRegion& region, double edge, RandomNumbers& random) {
     PlacedGrain grain{.x = region.corner[0] + random.uniform(edge, region.width - edge),
                       .y = region.corner[1] + random.uniform(edge, region.height - edge)};
     grain.z = region.corner[2] + random.uniform(edge, region.depth - edge);
@@ -37,7 +35,7 @@ bool add_one(NeighbourGrid& grid, const PackingRegion& region, double radius, do
     const double least = 2.0 * (radius + gap);
     if (region.width < least || region.height < least || region.depth < least) return false;
     for (int attempt = 0; attempt < attempts_per_grain; ++attempt) {
-        PlacedGrain grain = random_place(region, radius + gap, random);
+        PlacedGrain grain = random_place_in_space(region, radius + gap, random);
         grain.radius = radius;
         grain.id = static_cast<GrainId>(grid.grains().size());
         if (region.cylinder && !region.holds({grain.x, grain.y, grain.z}, radius + gap)) continue;
@@ -93,7 +91,7 @@ Packing shaken_sites(const PackingRequest& request, const std::vector<double>& r
     Packing grains = on_random_sites(std::move(sites), radii, random);
     PackingRequest shaking = request;
     shaking.jitter = shaking_distance;
-    for (int sweep = 0; sweep < shaking_sweeps; ++sweep) {
+    for (int sweep = 0; sweep < sphere_sweeps; ++sweep) {
         shaking.seed = request.seed + static_cast<std::uint64_t>(sweep);
         shake(grains, shaking, request.filled());
     }
@@ -105,7 +103,7 @@ std::string words_of(const PackingRegion& region) {
     return fmt::format("{} x {} x {} D", region.width, region.height, region.depth);
 }
 
-std::string too_dense(const PackingRequest& request, double fraction) {
+std::string too_dense_for_random(const PackingRequest& request, double fraction) {
     return fmt::format(
         "They fill {:.3g} of {}; at random places at most {} are possible. Pour them: "
         "let fewer per volume fall in a higher box, and start from that run with run --from. Or "
@@ -113,7 +111,7 @@ std::string too_dense(const PackingRequest& request, double fraction) {
         fraction, words_of(request.filled()), largest_random_fraction);
 }
 
-std::string does_not_fit(const PackingRequest& request) {
+std::string spheres_do_not_fit(const PackingRequest& request) {
     return fmt::format("There is no room for them in {}. Ask for fewer grains or enlarge {}.",
                        words_of(request.filled()),
                        request.filled().cylinder ? "grains.cylinder"
@@ -126,7 +124,7 @@ std::string does_not_fit(const PackingRequest& request) {
 PackingResult random_space_packing(const PackingRequest& request) {
     PackingResult result;
     if (const double least = least_solid_fraction(request); least > largest_random_fraction) {
-        result.refusal = too_dense(request, least);
+        result.refusal = too_dense_for_random(request, least);
         return result;
     }
     RandomNumbers random(request.seed);
@@ -134,11 +132,11 @@ PackingResult random_space_packing(const PackingRequest& request) {
     const std::vector<double> radii = draw_radii(request, random);
     const double fraction = solid_volume(radii) / request.filled().volume();
     if (fraction > largest_random_fraction) {
-        result.refusal = too_dense(request, fraction);
+        result.refusal = too_dense_for_random(request, fraction);
         return result;
     }
     if (fraction <= one_by_one_fraction)
-        for (const double gap : gaps) {
+        for (const double gap : space_gaps) {
             result.grains = add_one_by_one(request, radii, gap, random);
             if (result.grains.empty()) continue;
             result.notes.push_back(
@@ -148,7 +146,7 @@ PackingResult random_space_packing(const PackingRequest& request) {
         }
     result.grains = shaken_sites(request, radii, random);
     if (result.grains.empty())
-        result.refusal = does_not_fit(request);
+        result.refusal = spheres_do_not_fit(request);
     else
         result.notes.push_back(fmt::format(
             "{} grains were placed on random sites of a lattice and shaken", request.count));

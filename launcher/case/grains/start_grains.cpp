@@ -171,14 +171,13 @@ SolidSides solid_sides(const Settings& settings) {
 }
 
 bool is_in_box(const std::vector<double>& n, const PackingBox& box) {
-    constexpr double rounding = 1e-9;
     if (n.size() != 7 || !(n[6] > 0.0)) return false;
     if (n[0] == n[3] && n[1] == n[4] && n[2] == n[5]) return false;
     const PackingRegion region = cylinder_region(n);
     const Vec3 high = region.corner + Vec3{region.width, region.height, region.depth};
     const Vec3 size{box.width, box.height, box.depth};
     for (std::size_t i = 0; i < 3; ++i)
-        if (region.corner[i] < -rounding || high[i] > size[i] + rounding) return false;
+        if (region.corner[i] < -fit_rounding || high[i] > size[i] + fit_rounding) return false;
     return true;
 }
 

@@ -169,7 +169,7 @@ Ruling repeats_on_one_rank(const Settings& s) {
 // Damped polygons at rest need more sub-steps than discs: docs/md.md has the measured speeds.
 constexpr double quiet_polygons = 20.0;
 
-void notes(const Settings& s, std::vector<std::string>& notes) {
+void adapter_notes(const Settings& s, std::vector<std::string>& notes) {
     if (grains_adapter(s).contacts != Contacts::springs) return;
     if (!is(s, "grains.shape", "disc") && s.real("contact.md_substeps") < quiet_polygons)
         notes.push_back(
@@ -223,7 +223,7 @@ KeyGroup adapter_keys() {
                   {"contact.law", {"grains.adapter"}, law_is_known},
                   {"contact.adhesion", {"grains.adapter"}, adhesion_is_known},
                   {"contact.rolling_friction", {"grains.adapter"}, rolling_is_known}},
-        .notes = notes};
+        .notes = adapter_notes};
 }
 
 }  // namespace turbidite

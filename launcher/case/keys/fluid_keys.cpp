@@ -38,7 +38,7 @@ std::optional<double> reynolds_of(const Settings& s) {
     return make_scales(s).reynolds;
 }
 
-Ruling scheme_is_known(const Settings& s) {
+Ruling transport_scheme_is_known(const Settings& s) {
     const SchemeChoice choice = read_transport_scheme(s.text("fluid.transport_scheme"));
     if (choice.scheme) return std::nullopt;
     return Objection{choice.fault, choice.remedy};
@@ -249,7 +249,7 @@ std::string without_boundary_points(const Settings& s) {
     return unless(!is(s, "fluid.points", "interior"), s, "with fluid.points: interior");
 }
 
-void notes(const Settings& s, std::vector<std::string>& notes) {
+void fluid_notes(const Settings& s, std::vector<std::string>& notes) {
     const std::string& scheme = s.text("fluid.transport_scheme");
     if (const auto limit = step_limit_exceeded(s, SchemeKind::central, highest_peak))
         notes.push_back(
@@ -492,7 +492,7 @@ std::vector<Rule> rules() {
         {"fluid.acceleration",
          {"fluid.enabled", "domain.left", "domain.bottom"},
          acceleration_is_along_cyclic_sides},
-        {"fluid.transport_scheme", {}, scheme_is_known},
+        {"fluid.transport_scheme", {}, transport_scheme_is_known},
         {"fluid.transport_scheme",
          {"fluid.enabled", "fluid.cells_per_diameter", "fluid.time_scheme", "time.step",
           "scales.kind"},
@@ -525,7 +525,7 @@ KeyGroup fluid_keys() {
     std::vector<KeySpec> keys;
     for (const auto& part : {mesh_keys(), flow_keys(), multiplier_keys(), scheme_keys()})
         keys.insert(keys.end(), part.begin(), part.end());
-    return {.keys = keys, .rules = rules(), .notes = notes};
+    return {.keys = keys, .rules = rules(), .notes = fluid_notes};
 }
 
 }  // namespace turbidite

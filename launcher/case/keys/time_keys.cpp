@@ -72,7 +72,7 @@ Ruling slices_are_inside(const Settings& s) {
     return std::nullopt;
 }
 
-void notes(const Settings& settings, std::vector<std::string>& notes) {
+void time_notes(const Settings& settings, std::vector<std::string>& notes) {
     const double step = settings.real("time.step");
     const double end = settings.real("time.end");
     const double windows = std::round(end / step);
@@ -184,7 +184,7 @@ KeyGroup time_keys() {
                       {"output.fields", {}, fields_are_known},
                       {"output.slices", {"domain.size"}, slices_are_inside},
                       {"output.probes", {"domain.size", "dimension"}, probes_are_inside}},
-            .notes = notes};
+            .notes = time_notes};
 }
 
 }  // namespace turbidite

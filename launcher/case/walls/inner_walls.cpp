@@ -14,7 +14,6 @@
 namespace turbidite {
 namespace {
 
-constexpr double shortest = 1e-6;          // [D]
 constexpr std::size_t most_problems = 10;  // a wall through a packing cuts many grains
 
 const CsvForm& csv_form() {
@@ -44,7 +43,7 @@ double* number_of(InnerWall& wall, const std::string& column) {
 
 void check_wall(CsvTable& table, int line, const InnerWall& wall) {
     const double length = std::hypot(wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]);
-    if (!(length > shortest))
+    if (!(length > shortest_wall))
         table.refuse(line, fmt::format("wall {} has length {:.4g}", wall.id, length),
                      "Its ends must be apart.", "Move one of them.");
     if (!(wall.thickness >= 0.0))

@@ -23,6 +23,8 @@
 
 namespace turbidite {
 
+constexpr double shortest_wall = 1e-6;  // [D]
+
 /// What a wall in space is, and how it moves (space_walls.hpp).
 struct SpaceForm {
     SpaceWallKind kind = SpaceWallKind::plate;

@@ -14,7 +14,6 @@
 namespace turbidite {
 namespace {
 
-constexpr double shortest = 1e-6;     // [D]
 constexpr double right_angle = 1e-9;  // largest cosine
 
 /// A vector of a wall and the columns of its parts.
@@ -32,7 +31,7 @@ constexpr VectorColumns vector_columns[] = {
     {{"px", "py", "pz"}, &SpaceForm::pivot, false},
 };
 
-const CsvForm& csv_form() {
+const CsvForm& space_csv_form() {
     static const CsvForm form = {
         {"id", "kind", "x",  "y",  "z",         "ax",       "ay",       "az",    "bx",
          "by", "bz",   "r1", "r2", "vx",        "vy",       "vz",       "wx",    "wy",
@@ -133,14 +132,15 @@ void read_radii(Fields& fields, SpaceForm& form) {
 }
 
 void check_edges(Fields& fields, const SpaceForm& form) {
-    if (!(norm(form.a) > shortest))
+    if (!(norm(form.a) > shortest_wall))
         return fields.refuse("ax, ay, az have length 0",
                              "They are the axis of a round wall, or an edge of a plate.",
                              "Give its direction and length.");
     if (form.kind != SpaceWallKind::plate) return;
     const double length = norm(form.b);
     // cos(a, b) = a . b/(|a| |b|)
-    if (!(length > shortest) || std::abs(dot(form.a, form.b)) > right_angle * norm(form.a) * length)
+    if (!(length > shortest_wall) ||
+        std::abs(dot(form.a, form.b)) > right_angle * norm(form.a) * length)
         fields.refuse("the edges a and b are not those of a rectangle",
                       "bx, by, bz must be longer than 0 and at a right angle to ax, ay, az.",
                       "Correct them.");
@@ -153,13 +153,13 @@ void check_radii(Fields& fields, const SpaceForm& form) {
         case SpaceWallKind::plate:
             return;
         case SpaceWallKind::cylinder:
-            fits = r1 > shortest;
+            fits = r1 > shortest_wall;
             break;
         case SpaceWallKind::cone:
-            fits = std::min(r1, r2) >= 0.0 && r1 + r2 > shortest;
+            fits = std::min(r1, r2) >= 0.0 && r1 + r2 > shortest_wall;
             break;
         case SpaceWallKind::ring:
-            fits = r1 >= 0.0 && r2 > r1 + shortest;
+            fits = r1 >= 0.0 && r2 > r1 + shortest_wall;
             break;
     }
     if (!fits)
@@ -252,7 +252,7 @@ double distance_to_round(const SpaceForm& form, const Vec3& place) {
 
 InnerWalls read_space_walls_csv(const std::filesystem::path& file,
                                 const std::vector<std::string>& materials) {
-    CsvTable table = read_csv(file, csv_form());
+    CsvTable table = read_csv(file, space_csv_form());
     InnerWalls result;
     std::map<GrainId, int> first;
     for (const CsvTable::Row& row : table.rows) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "fluid_adapter/box_step/box_step.hpp"
@@ -14,7 +15,7 @@
 namespace turbidite {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr int nx = 12, ny = 10, nz = 4;
 constexpr double spacing = 0.1, dt = 0.02;
 

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 
 #include "fluid_adapter/box_step/box_step.hpp"
 #include "fluid_adapter/box_step/transport_parts.hpp"
@@ -23,7 +24,8 @@
 namespace turbidite {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, nu = 0.01, until = 0.5;
+using std::numbers::pi;
+constexpr double nu = 0.01, until = 0.5;
 
 struct Choice {
     bool second_order;

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include "coupler/hub/kick_rule.hpp"
+
+#include <numbers>
 #include "tests/unit/coupler/test_case.hpp"
 
 namespace turbidite {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double step = 0.01;
 
 // One disc, R = 0.5, rho_s = 1.5, rho_f = 1: M = 1.5 pi/4, m_f = pi/4, M_eff = M_sub = pi/8, I_f =

@@ -7,11 +7,12 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 namespace turbidite {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// Weight of x_j in mode k, for rows of n.
 using Weight = std::function<double(int j, int k, int n)>;

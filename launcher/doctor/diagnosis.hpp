@@ -10,14 +10,14 @@ namespace turbidite {
 
 enum class Health { ok, missing, wrong, not_tried };
 
-struct Finding {
+struct Diagnosis {
     Health health = Health::ok;
     std::string name;
     std::string text;    ///< version, place, or what is wrong
     std::string remedy;  ///< a command to type; empty if all is well
 };
 
-using Findings = std::vector<Finding>;
+using Diagnoses = std::vector<Diagnosis>;
 
 /// Builds the programs of a run, and installs the packages that the build needs.
 constexpr auto build_command = "./turbidite --version";
