@@ -91,7 +91,8 @@ def with_record(text, name, form, played):
     """The document with the `recorded` line of a form replaced, or added as its last. Entries begin in the first column,
     forms two further to the right, their keys four."""
     lines = text.splitlines()
-    begin = lines.index(f'  {form}:', lines.index(f'{name}:')) + 1
+    keys = [text.split('#')[0].rstrip() for text in lines]  # comments may follow a key
+    begin = keys.index(f'  {form}:', keys.index(f'{name}:')) + 1
     end = next((k for k in range(begin, len(lines)) if not lines[k].startswith('    ')), len(lines))
     kept = [text for text in lines[begin:end] if not text.startswith('    recorded:')]
     return '\n'.join([*lines[:begin], *kept, line(played), *lines[end:]]) + '\n'
