@@ -21,8 +21,8 @@ import records
 import run_data
 
 EXPECTED = """# Head.
-falling:
-  full:
+falling:   # a grain
+  full:  # as it is
     expected:
       end_height: {is: 2.9, within: 0.1}
     recorded: {commit: "old", date: 2026-01-01, processor: 1, memory: 1}
