@@ -127,7 +127,7 @@ def play_now(gallery, name, form, folder):
     line = playing.command(gallery.options.program, gallery.file(name), gallery.is_study(name), form, folder)
     print(playing.shown(line), flush=True)
     # Taken first: by the end of the run there may be another commit.
-    played = playing.play(line, records.source(gallery.configs, gallery.options.expected))
+    played = playing.play(line, records.source(gallery.configs, gallery.options.expected, gallery.options.program))
     records.save_played(folder, played)
     return played
 
@@ -142,7 +142,8 @@ def record(gallery, name, played):
 def require_commit(source):
     """A record names the commit that was played."""
     if source.commit is None:
-        raise entries.Wrong('--record names the commit that was played: it needs a checkout with git.')
+        raise entries.Wrong('--record names the commit that was played: it needs a checkout with git, or an installed '
+                            'program that says its commit (--version).')
     if source.changed:
         raise entries.Wrong(f'--record names the commit that was played, and {", ".join(source.changed[:3])} '
                             'is not committed.')
@@ -168,7 +169,7 @@ def act(options, tree):
     for name in options.names:
         gallery.form_of(name)
     if options.record and not options.judge:
-        require_commit(records.source(gallery.configs, options.expected))
+        require_commit(records.source(gallery.configs, options.expected, options.program))
     codes = [play(gallery, name) for name in options.names]
     return next((code for code in sorted(codes, reverse=True) if code), 0)
 

@@ -15,7 +15,7 @@ PLAYED = 'gallery.json'
 @dataclass
 class Source:
     """What is played."""
-    commit: str    # None: not a checkout
+    commit: str    # None: neither a checkout nor built from one
     changed: list  # files that differ from the commit
     date: str
 
@@ -28,8 +28,8 @@ class Played:
     memory: float      # MB, of the largest of them
 
 
-def source(configs, expected):
-    return Source(commit(configs), changed(configs, Path(expected).name), datetime.date.today().isoformat())
+def source(configs, expected, program):
+    return Source(commit(configs) or commit_of(program), changed(configs, Path(expected).name), datetime.date.today().isoformat())
 
 
 def save_played(folder, played):
@@ -57,6 +57,16 @@ def git(folder, *words):
 
 def commit(folder):
     return git(folder, 'rev-parse', '--short=10', 'HEAD')
+
+
+def commit_of(program):
+    """What an installed program was built from, by its own words."""
+    try:
+        told = subprocess.run([str(program), '--version'], capture_output=True, text=True).stdout
+    except FileNotFoundError:
+        return None
+    found = re.search(r'\(commit (\w+)\)', told)
+    return found and found[1]
 
 
 def changed(folder, expected):

@@ -295,6 +295,17 @@ class Records(Played):
             self.assertIn('needs a checkout', self.act('--record', 'falling')[1])
 
 
+class Installed(Played):
+    def test_the_program_says_its_commit(self):
+        self.assertEqual(records.commit_of(self.folder / 'program'), None)
+        program = (self.folder / 'program').read_text()
+        self.write('program', program.replace('import shutil, sys\n', 'import shutil, sys\nif sys.argv[1] == "--version":\n'
+                                              '    sys.exit(print("turbidite 0.1.0 (commit 0123456789)"))\n'))
+        code, told = self.act('--record', 'falling')
+        self.assertEqual(code, 0, told)
+        self.assertIn('commit: "0123456789"', (self.folder / 'configs/expected.yaml').read_text())
+
+
 class Playing(unittest.TestCase):
     def test_what_a_program_took_is_its_own(self):
         """A large one before does not count."""
