@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
-#include "coupler/hub/kick_rule.hpp"
-
 #include <numbers>
+
+#include "coupler/hub/kick_rule.hpp"
 #include "tests/unit/coupler/test_case.hpp"
 
 namespace turbidite {
