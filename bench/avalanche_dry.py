@@ -27,7 +27,7 @@ sys.path.insert(0, str(ROOT / 'launcher/report'))
 import curves
 import run_data
 import seeds
-from peaks import COLUMN
+from analysis.peaks import COLUMN
 
 PLAIN = 'plain'
 RUN_HEAD = ('runs', 'grains', 'peak of the mean curve [u_c]', 'at [t_c]', 'of single runs [u_c]', 'at [t_c]',

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "bench/run_benchmark.hpp"
+#include "bench/timing/run_benchmark.hpp"
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite::bench {

@@ -46,7 +46,7 @@ install(FILES README.md SECURITY.md CITATION.cff DESTINATION share/doc/turbidite
 find_program(MKDOCS mkdocs)
 if(MKDOCS)
     file(GLOB pages CONFIGURE_DEPENDS *.md docs/*.md docs/*/*.md docs/images/*.png docs/images/*/*.png configs/*.md)
-    file(GLOB reference CONFIGURE_DEPENDS coupler/participant/*.h* coupler/participant/python/*.py coupler/protocol/*.hpp
+    file(GLOB reference CONFIGURE_DEPENDS coupler/participant/*.h* coupler/participant/python/*.py coupler/protocol/*.hpp coupler/protocol/*/*.hpp
          coupler/rigid/*.hpp coupler/transport/*.hpp launcher/site/api/*)
     set(site ${PROJECT_BINARY_DIR}/site)
     add_custom_command(OUTPUT ${site}/index.html

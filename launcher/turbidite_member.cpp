@@ -24,10 +24,10 @@
 #include <string>
 
 #include "coupler/output/run_record.hpp"
+#include "coupler/protocol/files/run_files.hpp"
+#include "coupler/protocol/files/start_record.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 #include "coupler/protocol/host_name.hpp"
-#include "coupler/protocol/run_files.hpp"
-#include "coupler/protocol/start_record.hpp"
-#include "coupler/protocol/whole_file.hpp"
 #include "launcher/case/files/run_folder.hpp"
 
 namespace {

@@ -13,7 +13,7 @@
 #include "coupler/participant/participant.hpp"
 #include "coupler/participant/scripted.hpp"
 #include "coupler/protocol/run_values.hpp"
-#include "coupler/protocol/sides.hpp"
+#include "coupler/protocol/scene/sides.hpp"
 #include "launcher/adapter_test/partner.hpp"
 
 namespace {

@@ -21,11 +21,11 @@
 
 #include "bench/coupling/relay.hpp"
 #include "bench/coupling/stamped_channel.hpp"
-#include "bench/step_clock.hpp"
+#include "bench/timing/step_clock.hpp"
 #include "coupler/hub/hub.hpp"
 #include "coupler/participant/participant.hpp"
 #include "coupler/participant/scripted.hpp"
-#include "coupler/protocol/freed_memory.hpp"
+#include "coupler/protocol/files/freed_memory.hpp"
 #include "coupler/transport/intercomm_channel.hpp"
 #include "coupler/transport/world.hpp"
 #include "launcher/case/case_file.hpp"

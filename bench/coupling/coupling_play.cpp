@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "bench/site.hpp"
+#include "bench/timing/site.hpp"
 #include "launcher/job/launch_line.hpp"
 
 namespace turbidite::bench {

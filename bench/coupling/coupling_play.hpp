@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/coupling/stamps.hpp"
-#include "bench/step_clock.hpp"
+#include "bench/timing/step_clock.hpp"
 
 namespace turbidite::bench {
 

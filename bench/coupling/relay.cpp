@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "bench/step_clock.hpp"
+#include "bench/timing/step_clock.hpp"
 #include "coupler/transport/channel.hpp"
 
 namespace turbidite::bench {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "bench/step_clock.hpp"
+#include "bench/timing/step_clock.hpp"
 
 namespace turbidite::bench {
 namespace {

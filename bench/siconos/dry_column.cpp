@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "launcher/case/grains/lattice.hpp"
+#include "launcher/case/grains/packing/lattice.hpp"
 
 namespace turbidite::bench {
 namespace {

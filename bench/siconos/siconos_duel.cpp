@@ -12,7 +12,7 @@
 #include "bench/siconos/dry_column.hpp"
 #include "bench/siconos/same_measure.hpp"
 #include "bench/siconos/siconos_problem.hpp"
-#include "bench/step_clock.hpp"
+#include "bench/timing/step_clock.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::bench {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "bench/site.hpp"
+#include "bench/timing/site.hpp"
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite::bench {

@@ -3,7 +3,7 @@
 // The figure siconos_over_ours of `turbidite bench contact`.
 #pragma once
 
-#include "bench/figure.hpp"
+#include "bench/timing/figure.hpp"
 
 namespace turbidite::bench {
 

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "coupler/protocol/failure.hpp"
-#include "coupler/protocol/run_files.hpp"
+#include "coupler/protocol/files/run_files.hpp"
 
 namespace turbidite {
 namespace {

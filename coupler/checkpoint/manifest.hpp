@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "coupler/protocol/files/stored_file.hpp"
 #include "coupler/protocol/hello.hpp"
 #include "coupler/protocol/settings.hpp"
-#include "coupler/protocol/stored_file.hpp"
 
 namespace turbidite {
 

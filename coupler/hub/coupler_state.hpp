@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "coupler/hub/ledger.hpp"
+#include "coupler/hub/checks/ledger.hpp"
 #include "coupler/output/output_state.hpp"
 
 namespace turbidite {

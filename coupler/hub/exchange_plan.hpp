@@ -22,8 +22,8 @@ class ExchangePlan {
     /// Merges what the grains ranks sent into one list and remembers which rank owns which grain.
     /// Those of several ranks are in the order of their ids, so that sums over grains do not depend
     /// on who owns them.
-    /// Contacts (checked by hub/contact_check) are in the order of contact_before, whatever the
-    /// number of ranks. Throws PhysicsRefused when an id occurs twice.
+    /// Contacts (checked by hub/checks/contact_check) are in the order of contact_before, whatever
+    /// the number of ranks. Throws PhysicsRefused when an id occurs twice.
     Motion gather(std::vector<Motion> shares);
 
     /// How often `gather` had to find the places of the grains anew.

@@ -8,7 +8,7 @@
 
 #include "coupler/hub/handshake.hpp"
 #include "coupler/hub/schemes/exchanges.hpp"
-#include "coupler/protocol/start_record.hpp"
+#include "coupler/protocol/files/start_record.hpp"
 
 namespace turbidite {
 namespace {
@@ -22,8 +22,8 @@ constexpr double farewell_limit_after_stall = 2.0;
 
 // A fluid rank must know every grain that affects one of its points or cells. One of its cells may
 // be in the stencil of a surface point up to 1.5 cells outside its box (rule 6 of
-// multiplier/collocation_points.hpp), and whether that point is kept depends on grains within one
-// point spacing of it, at most 4 cells (rules 2 and 3): 5.5 cells, plus a safety margin.
+// multiplier/plane/collocation_points.hpp), and whether that point is kept depends on grains within
+// one point spacing of it, at most 4 cells (rules 2 and 3): 5.5 cells, plus a safety margin.
 constexpr double stencil_cells = 7.0;
 
 // Followed by the wait-for table; the launcher looks for it (launcher/job/job_outcome.cpp).

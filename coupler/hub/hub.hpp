@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "coupler/hub/checkpoints.hpp"
+#include "coupler/hub/checks/ledger.hpp"
 #include "coupler/hub/hub_settings.hpp"
-#include "coupler/hub/ledger.hpp"
 #include "coupler/hub/requests.hpp"
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/output/progress.hpp"

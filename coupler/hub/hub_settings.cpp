@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "coupler/protocol/hello.hpp"
-#include "coupler/protocol/mesh_rows.hpp"
+#include "coupler/protocol/scene/mesh_rows.hpp"
 
 namespace turbidite {
 namespace {
@@ -15,7 +15,7 @@ double largest_cell(const Settings& settings, const RunValues& run) {
     if (!rows_are_stretched(settings)) return cell;
     // Then grains may be anywhere, also in the highest rows.
     if (settings.flag("fluid.allow_coarse")) return settings.real("fluid.stretch_largest") * cell;
-    // h r^3 (protocol/mesh_rows.hpp): grains stay below the stretched rows.
+    // h r^3 (protocol/scene/mesh_rows.hpp): grains stay below the stretched rows.
     return std::pow(settings.real("fluid.stretch_ratio"), 3) * cell;  // the first stretched rows
 }
 

@@ -3,7 +3,7 @@
 // The settings that the hub uses, read once when it is created.
 #pragma once
 
-#include "coupler/output/solve_limits.hpp"
+#include "coupler/output/measures/solve_limits.hpp"
 #include "coupler/protocol/run_values.hpp"
 
 namespace turbidite {

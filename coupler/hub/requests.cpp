@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "coupler/protocol/run_files.hpp"
+#include "coupler/protocol/files/run_files.hpp"
 
 namespace turbidite {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupler/output/measures/pore_volume.hpp"
+#include "coupler/output/measures/pore_voxels.hpp"
 #include "coupler/output/output_state.hpp"
-#include "coupler/output/pore_volume.hpp"
-#include "coupler/output/pore_voxels.hpp"
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {

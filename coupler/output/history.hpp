@@ -9,8 +9,8 @@
 #include <fstream>
 #include <optional>
 
-#include "coupler/output/contact_network.hpp"
-#include "coupler/output/run_statistics.hpp"
+#include "coupler/output/measures/contact_network.hpp"
+#include "coupler/output/measures/run_statistics.hpp"
 #include "coupler/shapes/immersed_bodies.hpp"
 
 namespace turbidite {

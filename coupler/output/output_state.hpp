@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "coupler/output/run_statistics.hpp"
+#include "coupler/output/measures/run_statistics.hpp"
 #include "coupler/protocol/wire.hpp"
 
 namespace turbidite {

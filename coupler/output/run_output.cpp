@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "coupler/protocol/stored_file.hpp"
+#include "coupler/protocol/files/stored_file.hpp"
 
 namespace turbidite {
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "coupler/protocol/whole_file.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 
 namespace turbidite {
 namespace {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "coupler/output/run_statistics.hpp"
+#include "coupler/output/measures/run_statistics.hpp"
 #include "coupler/output/run_warnings.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/hello.hpp"

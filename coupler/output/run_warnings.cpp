@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "coupler/output/courant_limit.hpp"
+#include "coupler/output/measures/courant_limit.hpp"
 
 namespace turbidite {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "coupler/output/run_statistics.hpp"
-#include "coupler/output/solve_limits.hpp"
+#include "coupler/output/measures/run_statistics.hpp"
+#include "coupler/output/measures/solve_limits.hpp"
 
 namespace turbidite {
 

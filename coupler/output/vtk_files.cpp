@@ -6,7 +6,7 @@
 
 #include "coupler/output/output_state.hpp"
 #include "coupler/protocol/failure.hpp"
-#include "coupler/protocol/whole_file.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 
 namespace turbidite::vtk {
 namespace {

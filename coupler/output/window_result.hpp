@@ -32,7 +32,7 @@ struct GrainBalance {
 };
 
 /// How far a grain ended from where the velocity it moves with takes it, turns on its
-/// circumference (hub/motion_rule).
+/// circumference (hub/checks/motion_rule).
 struct MotionDefect {
     double defect = 0.0;  ///< [m]
     GrainId worst = 0;

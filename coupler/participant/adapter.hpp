@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/files/stored_file.hpp"
 #include "coupler/protocol/hello.hpp"
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
-#include "coupler/protocol/stored_file.hpp"
 
 /// The library of a participant, and the records that programs exchange.
 namespace turbidite {

@@ -13,7 +13,7 @@
 
 #include "coupler/participant/participant.hpp"
 #include "coupler/participant/turbidite.h"
-#include "coupler/protocol/start_record.hpp"
+#include "coupler/protocol/files/start_record.hpp"
 
 struct turbidite_settings {
     const turbidite::Settings& values;

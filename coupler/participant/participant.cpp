@@ -11,7 +11,7 @@
 #include <iterator>
 
 #include "coupler/protocol/case_hash.hpp"
-#include "coupler/protocol/run_files.hpp"
+#include "coupler/protocol/files/run_files.hpp"
 #include "coupler/transport/intercomm_channel.hpp"
 #include "coupler/transport/world.hpp"
 

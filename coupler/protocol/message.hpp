@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "coupler/protocol/files/stored_file.hpp"
 #include "coupler/protocol/hello.hpp"
-#include "coupler/protocol/stored_file.hpp"
 #include "coupler/protocol/wire.hpp"
 
 namespace turbidite {

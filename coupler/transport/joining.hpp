@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include "coupler/protocol/files/start_record.hpp"
 #include "coupler/protocol/settings.hpp"
-#include "coupler/protocol/start_record.hpp"
 #include "coupler/transport/world.hpp"
 
 namespace turbidite {

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "coupler/protocol/failure.hpp"
-#include "coupler/protocol/start_record.hpp"
+#include "coupler/protocol/files/start_record.hpp"
 #include "coupler/transport/channel.hpp"
 #include "coupler/transport/doorbell.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "coupler/protocol/freed_memory.hpp"
+#include "coupler/protocol/files/freed_memory.hpp"
 #include "fluid_adapter/box_app/box_state.hpp"
 #include "fluid_adapter/box_app/box_store.hpp"
 

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "coupler/protocol/stored_file.hpp"
+#include "coupler/protocol/files/stored_file.hpp"
 #include "fluid_adapter/box_app/box_field.hpp"
 #include "fluid_adapter/fluid_window/box_fluid_step.hpp"
 

@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "coupler/protocol/failure.hpp"
-#include "coupler/protocol/splitting.hpp"
+#include "coupler/protocol/scene/splitting.hpp"
 #include "fluid_adapter/box_app/interpolated_velocity.hpp"
-#include "fluid_adapter/box_step/convective_flux.hpp"
+#include "fluid_adapter/box_step/transport/convective_flux.hpp"
 #include "fluid_adapter/fluid_window/box_of_grid.hpp"
 #include "fluid_adapter/fluid_window/grid_of_domain.hpp"
 #include "fluid_adapter/fluid_window/wanted_fields.hpp"

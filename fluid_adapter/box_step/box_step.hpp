@@ -2,11 +2,11 @@
 //
 // Steps 1 to 3 of a window on the layers of a box (box_layers.hpp), uniform or with rows of
 // different heights (row_heights.hpp; Topin 2011, section 2.1.2), on contiguous arrays of the
-// components of u. The results equal those of OpenFOAM's operators (foam_app/operatorStep.hpp) to
-// rounding:
+// components of u. The results equal those of OpenFOAM's operators
+// (foam_app/operators/operatorStep.hpp) to rounding:
 //
 //     1  projection   phi1 = S.u + k e - dt S.grad p,  div phi1 = 0,   u1 = u - dt grad p,
-//                     e = phi1 - S.u1        k, e: foam_app/stokesProjection.hpp
+//                     e = phi1 - S.u1        k, e: foam_app/operators/stokesProjection.hpp
 //     2  transport    u2 = u1 - dt div(phi1 u1)                        convective_flux.hpp
 //     3  viscosity    u3 - dt nu laplacian(u3) = u2
 //
@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "fluid_adapter/box_step/box_operators.hpp"
-#include "fluid_adapter/box_step/momentum_transport.hpp"
 #include "fluid_adapter/box_step/pressure_projection.hpp"
 #include "fluid_adapter/box_step/side_forces.hpp"
+#include "fluid_adapter/box_step/transport/momentum_transport.hpp"
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
 namespace turbidite {

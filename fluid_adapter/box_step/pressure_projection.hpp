@@ -5,7 +5,7 @@
 #pragma once
 
 #include "fluid_adapter/box_step/box_fluid.hpp"
-#include "fluid_adapter/box_step/flux_check.hpp"
+#include "fluid_adapter/box_step/transport/flux_check.hpp"
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
 namespace turbidite {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "fluid_adapter/box_step/box_rows.hpp"
-#include "fluid_adapter/box_step/convective_flux.hpp"
 #include "fluid_adapter/box_step/row_work.hpp"
+#include "fluid_adapter/box_step/transport/convective_flux.hpp"
 
 namespace turbidite {
 

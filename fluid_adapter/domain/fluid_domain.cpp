@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "coupler/protocol/failure.hpp"
-#include "coupler/protocol/mesh_rows.hpp"
 #include "coupler/protocol/run_values.hpp"
+#include "coupler/protocol/scene/mesh_rows.hpp"
 
 namespace turbidite {
 namespace {

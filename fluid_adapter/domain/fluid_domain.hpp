@@ -2,15 +2,15 @@
 //
 // The fluid's box and its grid, from the resolved case: counts = size / D x cells per diameter,
 // rounded, so that cells are as nearly square as the box allows; rows may be stretched above the
-// grains (coupler/protocol/mesh_rows.hpp). Valid C++17.
+// grains (coupler/protocol/scene/mesh_rows.hpp). Valid C++17.
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
+#include "coupler/protocol/scene/sides.hpp"
 #include "coupler/protocol/settings.hpp"
-#include "coupler/protocol/sides.hpp"
 
 namespace turbidite {
 

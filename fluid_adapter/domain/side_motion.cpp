@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "coupler/protocol/plates.hpp"
+#include "coupler/protocol/scene/plates.hpp"
 
 namespace turbidite {
 namespace {

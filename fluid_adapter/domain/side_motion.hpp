@@ -14,9 +14,9 @@
 #include <array>
 #include <memory>
 
-#include "coupler/protocol/prescribed_motion.hpp"
+#include "coupler/protocol/scene/prescribed_motion.hpp"
+#include "coupler/protocol/scene/sides.hpp"
 #include "coupler/protocol/settings.hpp"
-#include "coupler/protocol/sides.hpp"
 
 namespace turbidite {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fluid_adapter/box_step/transport_parts.hpp"
+#include "fluid_adapter/box_step/transport/transport_parts.hpp"
 
 namespace turbidite {
 BoxFluidStep::BoxFluidStep(const BoxFluid& fluid, std::unique_ptr<BoxRows> rows,

@@ -5,7 +5,7 @@
 //     BoxFluidStep   rows of a box (box_fluid_step.hpp), if the case's transport scheme is one they
 //                    know and its solvers are FFT
 //     OperatorStep   OpenFOAM's operators and tables with the solvers that fvSolution names, for
-//                    everything else (foam_app/operatorStep.hpp)
+//                    everything else (foam_app/operators/operatorStep.hpp)
 //
 // A step that works on contiguous components keeps the velocity in them from window to window, for
 // the multiplier method as well, and the field u of the store (fluid_store.hpp) follows when
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "fluid_adapter/box_step/box_step.hpp"
-#include "fluid_adapter/box_step/second_order.hpp"
+#include "fluid_adapter/box_step/transport/second_order.hpp"
 #include "fluid_adapter/coupled_step/coupled_step.hpp"
 
 namespace turbidite {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "coupler/protocol/splitting.hpp"
+#include "coupler/protocol/scene/splitting.hpp"
 
 namespace turbidite {
 namespace {

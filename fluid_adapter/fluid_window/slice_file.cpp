@@ -7,7 +7,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "coupler/protocol/whole_file.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 
 namespace turbidite {
 namespace {

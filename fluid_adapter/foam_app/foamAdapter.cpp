@@ -4,7 +4,7 @@
 #include <OSspecific.H>
 #include <sigFpe.H>
 
-#include "coupler/protocol/freed_memory.hpp"
+#include "coupler/protocol/files/freed_memory.hpp"
 #include "fluid_adapter/foam_app/foamErrors.hpp"
 #include "fluid_adapter/foam_app/foamStore.hpp"
 #include "fluid_adapter/foam_app/savedState.hpp"

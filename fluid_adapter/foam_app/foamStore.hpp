@@ -10,10 +10,10 @@
 #include "fluid_adapter/fluid_window/fluid_store.hpp"
 #include "fluid_adapter/fluid_window/probes.hpp"
 #include "fluid_adapter/fluid_window/slices.hpp"
-#include "fluid_adapter/foam_app/foamField.hpp"
+#include "fluid_adapter/foam_app/fields/foamField.hpp"
+#include "fluid_adapter/foam_app/fields/outputFields.hpp"
+#include "fluid_adapter/foam_app/fields/sideVelocity.hpp"
 #include "fluid_adapter/foam_app/functionObjects.hpp"
-#include "fluid_adapter/foam_app/outputFields.hpp"
-#include "fluid_adapter/foam_app/sideVelocity.hpp"
 
 namespace turbidite {
 

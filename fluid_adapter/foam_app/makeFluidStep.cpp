@@ -7,12 +7,12 @@
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
-#include "coupler/protocol/splitting.hpp"
-#include "fluid_adapter/box_step/convective_flux.hpp"
+#include "coupler/protocol/scene/splitting.hpp"
+#include "fluid_adapter/box_step/transport/convective_flux.hpp"
 #include "fluid_adapter/fluid_window/box_of_grid.hpp"
-#include "fluid_adapter/foam_app/foamRows.hpp"
-#include "fluid_adapter/foam_app/laplacianOperator.hpp"
-#include "fluid_adapter/foam_app/operatorStep.hpp"
+#include "fluid_adapter/foam_app/fields/foamRows.hpp"
+#include "fluid_adapter/foam_app/operators/laplacianOperator.hpp"
+#include "fluid_adapter/foam_app/operators/operatorStep.hpp"
 #include "fluid_adapter/ranks/rank_rows.hpp"
 
 namespace turbidite {

@@ -8,7 +8,7 @@
 
 #include "coupler/protocol/settings.hpp"
 #include "fluid_adapter/fluid_window/fluid_step.hpp"
-#include "fluid_adapter/foam_app/createFields.hpp"
+#include "fluid_adapter/foam_app/fields/createFields.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
 
 namespace turbidite {

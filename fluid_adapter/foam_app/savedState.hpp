@@ -8,7 +8,7 @@
 
 #include "coupler/participant/adapter.hpp"
 #include "fluid_adapter/fluid_window/fluid_step.hpp"
-#include "fluid_adapter/foam_app/createFields.hpp"
+#include "fluid_adapter/foam_app/fields/createFields.hpp"
 
 namespace turbidite {
 

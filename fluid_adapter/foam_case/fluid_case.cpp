@@ -9,8 +9,8 @@
 #include <regex>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 #include "coupler/protocol/run_values.hpp"
-#include "coupler/protocol/whole_file.hpp"
 #include "fluid_adapter/domain/fluid_domain.hpp"
 #include "fluid_adapter/domain/side_motion.hpp"
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Walls inside the box (coupler/protocol/plates.hpp) as bodies of step 5, with the outline that
-// contacts see, their round ends as polygons. They have interior points only: a plate of two cells
-// is tight, but boundary points on both sides of it would take its cells for their stencils and let
-// fluid through. Valid C++17.
+// Walls inside the box (coupler/protocol/scene/plates.hpp) as bodies of step 5, with the outline
+// that contacts see, their round ends as polygons. They have interior points only: a plate of two
+// cells is tight, but boundary points on both sides of it would take its cells for their stencils
+// and let fluid through. Valid C++17.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "coupler/protocol/plates.hpp"
+#include "coupler/protocol/scene/plates.hpp"
 #include "coupler/shapes/shape.hpp"
 #include "fluid_adapter/multiplier/immersed_grain.hpp"
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "coupler/protocol/splitting.hpp"
-#include "fluid_adapter/multiplier/plane_constraint.hpp"
+#include "coupler/protocol/scene/splitting.hpp"
+#include "fluid_adapter/multiplier/plane/plane_constraint.hpp"
 #include "fluid_adapter/multiplier/space/interior_constraint.hpp"
 
 namespace turbidite {

@@ -5,7 +5,7 @@
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
-#include "coupler/protocol/sides.hpp"
+#include "coupler/protocol/scene/sides.hpp"
 #include "coupler/rigid/vec3.hpp"
 
 namespace turbidite {

@@ -29,7 +29,7 @@ struct Border {
     nscd::Wall plane;
 };
 
-/// The sides of coupler/protocol/sides.hpp, from domain.* and run.*; of the material
+/// The sides of coupler/protocol/scene/sides.hpp, from domain.* and run.*; of the material
 /// run.side_material.
 /// Throws std::invalid_argument for an unknown type of side, or a cyclic side whose opposite is not
 /// cyclic.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/grains/inner_walls.hpp"
 
-#include "coupler/protocol/plates.hpp"
-#include "coupler/protocol/space_walls.hpp"
+#include "coupler/protocol/scene/plates.hpp"
+#include "coupler/protocol/scene/space_walls.hpp"
 #include "coupler/rigid/vec3.hpp"
 
 namespace turbidite {

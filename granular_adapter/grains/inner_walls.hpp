@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Walls inside the box (coupler/protocol/plates.hpp, in space space_walls.hpp) as walls of the
-// contact problem.
+// Walls inside the box (coupler/protocol/scene/plates.hpp, in space space_walls.hpp) as walls of
+// the contact problem.
 #pragma once
 
 #include <vector>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Walls and bodies of the contact problem that follow the prescribed motions of the case
-// (coupler/protocol/prescribed_motion.hpp).
+// (coupler/protocol/scene/prescribed_motion.hpp).
 #pragma once
 
 #include <vector>
 
-#include "coupler/protocol/prescribed_motion.hpp"
+#include "coupler/protocol/scene/prescribed_motion.hpp"
 #include "granular_adapter/grains/borders.hpp"
 #include "granular_adapter/nscd/problem/bodies.hpp"
 #include "granular_adapter/nscd/problem/walls.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "coupler/protocol/even_shares.hpp"
-#include "coupler/protocol/freed_memory.hpp"
+#include "coupler/protocol/files/freed_memory.hpp"
 #include "granular_adapter/grains/case_bodies.hpp"
 #include "granular_adapter/grains/inner_walls.hpp"
 #include "granular_adapter/nscd/laws/law_list.hpp"

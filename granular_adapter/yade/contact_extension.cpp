@@ -5,7 +5,7 @@
 #include <string>
 
 #include "coupler/keys/key_check.hpp"
-#include "coupler/protocol/freed_memory.hpp"
+#include "coupler/protocol/files/freed_memory.hpp"
 #include "coupler/shapes/polygon_outline.hpp"
 #include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "granular_adapter/nscd_adapter/contact_settings.hpp"

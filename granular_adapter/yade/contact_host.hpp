@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "granular_adapter/nscd/engine/engine.hpp"
+#include "granular_adapter/yade/bodies/turn.hpp"
+#include "granular_adapter/yade/bodies/yade_bodies.hpp"
 #include "granular_adapter/yade/hosted_walls.hpp"
 #include "granular_adapter/yade/overlap.hpp"
 #include "granular_adapter/yade/scene_watch.hpp"
-#include "granular_adapter/yade/turn.hpp"
-#include "granular_adapter/yade/yade_bodies.hpp"
 
 namespace turbidite::yade {
 

@@ -2,7 +2,7 @@
 #include "granular_adapter/yade/hosted_walls.hpp"
 
 #include "coupler/rigid/vec3.hpp"
-#include "granular_adapter/yade/turn.hpp"
+#include "granular_adapter/yade/bodies/turn.hpp"
 
 namespace turbidite::yade {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "granular_adapter/nscd/problem/walls.hpp"
-#include "granular_adapter/yade/yade_bodies.hpp"
+#include "granular_adapter/yade/bodies/yade_bodies.hpp"
 
 namespace turbidite::yade {
 

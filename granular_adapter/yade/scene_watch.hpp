@@ -7,7 +7,7 @@
 #include <boost/python/object.hpp>
 #include <vector>
 
-#include "granular_adapter/yade/yade_bodies.hpp"
+#include "granular_adapter/yade/bodies/yade_bodies.hpp"
 
 namespace turbidite::yade {
 

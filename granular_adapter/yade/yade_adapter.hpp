@@ -10,7 +10,7 @@
 
 #include "coupler/participant/adapter.hpp"
 #include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
-#include "granular_adapter/yade/body_exchange.hpp"
+#include "granular_adapter/yade/bodies/body_exchange.hpp"
 
 namespace turbidite::yade {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "coupler/protocol/sides.hpp"
+#include "coupler/protocol/scene/sides.hpp"
 #include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/problem/byte_stream.hpp"
-#include "granular_adapter/yade/yade_forces.hpp"
+#include "granular_adapter/yade/bodies/yade_forces.hpp"
 #include "granular_adapter/yade/yade_grains.hpp"
 
 namespace turbidite::yade {

@@ -12,7 +12,7 @@
 
 #include "granular_adapter/grains/borders.hpp"
 #include "granular_adapter/md/md_host.hpp"
-#include "granular_adapter/yade/body_exchange.hpp"
+#include "granular_adapter/yade/bodies/body_exchange.hpp"
 
 namespace turbidite::yade {
 

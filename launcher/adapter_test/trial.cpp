@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "launcher/case/files/command_words.hpp"
+#include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/job.hpp"
 #include "launcher/job/overdue.hpp"
 #include "launcher/job/resume_run.hpp"
-#include "launcher/job/run_json.hpp"
 
 namespace turbidite {
 namespace {

@@ -13,7 +13,7 @@
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
 #include "launcher/case/files/function_objects.hpp"
-#include "launcher/case/grains/packing.hpp"
+#include "launcher/case/grains/packing/packing.hpp"
 #include "launcher/case/scales.hpp"
 
 namespace turbidite {

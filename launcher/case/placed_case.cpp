@@ -6,7 +6,7 @@
 
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/whole_file.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 #include "launcher/case/files/file_names.hpp"
 #include "launcher/case/grains/grain_abilities.hpp"
 #include "launcher/case/grains/materials.hpp"

@@ -8,7 +8,7 @@
 
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
-#include "launcher/case/grains/packing.hpp"
+#include "launcher/case/grains/packing/packing.hpp"
 #include "launcher/case/scales.hpp"
 #include "launcher/case/walls/inner_walls.hpp"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/mesh_rows.hpp"
+#include "coupler/protocol/scene/mesh_rows.hpp"
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/forecast/courant_forecast.hpp"
 #include "launcher/case/forecast/disk_cost.hpp"

@@ -12,7 +12,7 @@
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/commands/command.hpp"
-#include "launcher/job/temporary_folder.hpp"
+#include "launcher/job/folder/temporary_folder.hpp"
 #include "launcher/job/terminal.hpp"
 
 namespace turbidite {

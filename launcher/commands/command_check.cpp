@@ -8,9 +8,9 @@
 #include "launcher/case/forecast/run_cost.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
+#include "launcher/job/folder/shipped_cases.hpp"
 #include "launcher/job/launch_line.hpp"
 #include "launcher/job/prepare_run.hpp"
-#include "launcher/job/shipped_cases.hpp"
 #include "launcher/job/terminal.hpp"
 #include "launcher/study/study_plan.hpp"
 

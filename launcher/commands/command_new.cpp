@@ -8,7 +8,7 @@
 
 #include "coupler/protocol/failure.hpp"
 #include "launcher/commands/command.hpp"
-#include "launcher/job/shipped_cases.hpp"
+#include "launcher/job/folder/shipped_cases.hpp"
 #include "launcher/own_case/own_case.hpp"
 
 namespace turbidite {

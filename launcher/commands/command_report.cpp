@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "launcher/commands/command.hpp"
-#include "launcher/report/report_script.hpp"
+#include "launcher/commands/report_script.hpp"
 
 namespace turbidite {
 namespace {

@@ -6,13 +6,13 @@
 #include <memory>
 
 #include "launcher/case/forecast/disk_cost.hpp"
-#include "launcher/case/grains/pouring.hpp"
+#include "launcher/case/grains/packing/pouring.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
+#include "launcher/job/folder/shipped_cases.hpp"
 #include "launcher/job/job.hpp"
 #include "launcher/job/play_run.hpp"
 #include "launcher/job/pour_grains.hpp"
-#include "launcher/job/shipped_cases.hpp"
 #include "launcher/job/terminal.hpp"
 
 namespace turbidite {

@@ -7,10 +7,10 @@
 #include <cstdlib>
 
 #include "launcher/doctor/command_output.hpp"
+#include "launcher/job/folder/run_json.hpp"
+#include "launcher/job/folder/temporary_folder.hpp"
 #include "launcher/job/overdue.hpp"
 #include "launcher/job/play_run.hpp"
-#include "launcher/job/run_json.hpp"
-#include "launcher/job/temporary_folder.hpp"
 
 namespace turbidite {
 namespace {

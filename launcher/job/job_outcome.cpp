@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "coupler/protocol/files/run_files.hpp"
 #include "coupler/protocol/received.hpp"
-#include "coupler/protocol/run_files.hpp"
-#include "launcher/job/run_json.hpp"
+#include "launcher/job/folder/run_json.hpp"
 
 namespace turbidite {
 namespace {

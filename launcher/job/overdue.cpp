@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "coupler/protocol/files/run_files.hpp"
+#include "coupler/protocol/files/start_record.hpp"
 #include "coupler/protocol/host_name.hpp"
-#include "coupler/protocol/run_files.hpp"
-#include "coupler/protocol/start_record.hpp"
-#include "launcher/job/run_json.hpp"
+#include "launcher/job/folder/run_json.hpp"
 
 namespace turbidite {
 namespace {

@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "coupler/protocol/whole_file.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
+#include "launcher/commands/report_script.hpp"
 #include "launcher/job/job.hpp"
 #include "launcher/job/overdue.hpp"
 #include "launcher/job/terminal.hpp"
-#include "launcher/report/report_script.hpp"
 
 namespace turbidite {
 namespace {

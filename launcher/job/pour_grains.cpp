@@ -15,7 +15,7 @@
 #include "coupler/protocol/case_hash.hpp"
 #include "launcher/case/files/run_folder.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
-#include "launcher/case/grains/pouring.hpp"
+#include "launcher/case/grains/packing/pouring.hpp"
 #include "launcher/job/resume_run.hpp"
 #include "launcher/job/terminal.hpp"
 

@@ -12,13 +12,13 @@
 
 #include "coupler/checkpoint/checkpoint_sets.hpp"
 #include "coupler/protocol/failure.hpp"
-#include "coupler/protocol/whole_file.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/job/folder/run_json.hpp"
+#include "launcher/job/folder/run_on_disk.hpp"
 #include "launcher/job/launch_line.hpp"
-#include "launcher/job/run_json.hpp"
-#include "launcher/job/run_on_disk.hpp"
 #include "launcher/version.hpp"
 
 namespace turbidite {

@@ -11,7 +11,7 @@
 
 #include "launcher/case/case_file.hpp"
 #include "launcher/case/files/run_folder.hpp"
-#include "launcher/job/run_lock.hpp"
+#include "launcher/job/folder/run_lock.hpp"
 
 namespace turbidite {
 

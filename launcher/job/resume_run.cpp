@@ -9,12 +9,12 @@
 
 #include "coupler/checkpoint/checkpoint_sets.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 #include "coupler/protocol/run_values.hpp"
-#include "coupler/protocol/whole_file.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
-#include "launcher/job/run_json.hpp"
-#include "launcher/job/run_on_disk.hpp"
-#include "launcher/job/set_aside.hpp"
+#include "launcher/job/folder/run_json.hpp"
+#include "launcher/job/folder/run_on_disk.hpp"
+#include "launcher/job/folder/set_aside.hpp"
 
 namespace turbidite {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "coupler/protocol/failure.hpp"
-#include "coupler/protocol/whole_file.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 #include "launcher/case/files/case_entries.hpp"
 
 namespace turbidite {

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Captions of the figures of a report, with numbers. Missing numbers are left out."""
 import findings
-import peaks
-import relaxation
+from analysis import peaks, relaxation
 from force_network import LARGEST_PART, THINNEST, force_scale
 
 

@@ -18,7 +18,7 @@ import numpy as np
 
 import compare_page
 import findings
-import peaks
+from analysis import peaks
 import run_data
 import seeds
 import surface

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import matplotlib.pyplot as plt
 import numpy as np
 
-import relaxation
+from analysis import relaxation
 
 # Residuals of single contacts are round-off; drawn at their value they would compress all other curves.
 LOG_FLOOR = 1e-16

@@ -6,8 +6,7 @@ import numpy as np
 
 import curves
 import findings
-import peaks
-import relaxation
+from analysis import peaks, relaxation
 from analysis import (concentration, deposit, dilatancy, energy, pore_pressure, pores, rheology, shear_band,
                       weight_balance)
 from analysis.once import or_remark

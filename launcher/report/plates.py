@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Walls inside the box (grains/walls.csv) where they are at a time: with their constant motion, or that of
-domain.motions which they name (coupler/protocol/prescribed_motion.hpp)."""
+domain.motions which they name (coupler/protocol/scene/prescribed_motion.hpp)."""
 import csv
 
 import numpy as np

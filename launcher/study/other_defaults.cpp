@@ -8,7 +8,7 @@
 #include <regex>
 #include <set>
 
-#include "coupler/protocol/whole_file.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 #include "launcher/case/files/case_entries.hpp"
 #include "launcher/case/files/run_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include "coupler/checkpoint/checkpoint_sets.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "launcher/case/files/run_folder.hpp"
-#include "launcher/job/run_json.hpp"
+#include "launcher/job/folder/run_json.hpp"
 #include "launcher/study/other_defaults.hpp"
 
 namespace turbidite {

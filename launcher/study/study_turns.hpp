@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include "launcher/job/run_lock.hpp"
+#include "launcher/job/folder/run_lock.hpp"
 #include "launcher/study/study_plan.hpp"
 
 namespace turbidite {

@@ -15,7 +15,7 @@ SUFFIXES = (".cpp", ".hpp", ".h", ".def", ".py")
 
 SCHEMES = "coupler/hub/schemes/"
 ADAPTERS = "launcher/case/grains/grains_adapter_table.def"
-SPLITTINGS = "coupler/protocol/splitting.hpp"
+SPLITTINGS = "coupler/protocol/scene/splitting.hpp"
 # The files that may name it: where it is defined, and the program that says it of itself. (split and dry are words of
 # other things, too.)
 NAMES = {

@@ -16,7 +16,7 @@
 #include <regex>
 #include <sstream>
 
-#include "coupler/protocol/run_files.hpp"
+#include "coupler/protocol/files/run_files.hpp"
 #include "launcher/case/case_file.hpp"
 #include "launcher/study/study_plan.hpp"
 #include "tests/mutation/mutate.hpp"

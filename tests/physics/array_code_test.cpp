@@ -13,7 +13,7 @@
 #include <fstream>
 
 #include "bench/array_code/plane_flow.hpp"
-#include "bench/start_flow.hpp"
+#include "bench/fluid/start_flow.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "tests/physics/coupled_run.hpp"
 

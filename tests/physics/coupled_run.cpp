@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "coupler/protocol/splitting.hpp"
+#include "coupler/protocol/scene/splitting.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "tests/run_settings.hpp"
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fluid_adapter/box_step/transport_parts.hpp"
+#include "fluid_adapter/box_step/transport/transport_parts.hpp"
 #include "tests/physics/coupled_run.hpp"
 
 namespace turbidite {

@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "coupler/hub/arrival.hpp"
-#include "coupler/hub/contact_check.hpp"
+#include "coupler/hub/checks/arrival.hpp"
+#include "coupler/hub/checks/contact_check.hpp"
 #include "coupler/protocol/largest.hpp"
 
 namespace turbidite {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Exchanges shared by the schemes. Every message is checked here, once, before it is used: its
-// numbers (hub/arrival.hpp), its grains (hub/grain_roster.hpp), its contacts
-// (hub/contact_check.hpp), and where it says that the grains are (hub/motion_rule.hpp).
+// numbers (hub/checks/arrival.hpp), its grains (hub/checks/grain_roster.hpp), its contacts
+// (hub/checks/contact_check.hpp), and where it says that the grains are
+// (hub/checks/motion_rule.hpp).
 #pragma once
 
 #include "coupler/hub/schemes/scheme.hpp"

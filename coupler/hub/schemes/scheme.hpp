@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "coupler/hub/checks/grain_roster.hpp"
+#include "coupler/hub/checks/motion_rule.hpp"
 #include "coupler/hub/exchange_plan.hpp"
-#include "coupler/hub/grain_roster.hpp"
 #include "coupler/hub/kick_rule.hpp"
-#include "coupler/hub/motion_rule.hpp"
 #include "coupler/hub/watch.hpp"
 #include "coupler/output/window_result.hpp"
 

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cstring>
 
-#include "coupler/protocol/whole_file.hpp"
+#include "coupler/protocol/files/whole_file.hpp"
 #include "launcher/case/files/file_names.hpp"
 
 namespace turbidite {

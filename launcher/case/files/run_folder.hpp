@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "coupler/protocol/run_files.hpp"
+#include "coupler/protocol/files/run_files.hpp"
 
 namespace turbidite {
 

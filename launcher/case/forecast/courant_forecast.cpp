@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "coupler/keys/key_spec.hpp"
-#include "coupler/output/courant_limit.hpp"
+#include "coupler/output/measures/courant_limit.hpp"
 #include "coupler/rigid/vec3.hpp"
 
 namespace turbidite {

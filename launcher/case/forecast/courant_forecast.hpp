@@ -13,8 +13,8 @@ namespace turbidite {
 /// grains at t = 0. Streams between grains may be several times as fast. 0 without a fluid.
 double forecast_courant(const ResolvedCase& resolved);
 
-/// A sentence with the remedy if that is above the limit (coupler/output/courant_limit.hpp);
-/// otherwise empty.
+/// A sentence with the remedy if that is above the limit
+/// (coupler/output/measures/courant_limit.hpp); otherwise empty.
 std::string courant_warning(const ResolvedCase& resolved);
 
 }  // namespace turbidite

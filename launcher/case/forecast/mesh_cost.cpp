@@ -5,8 +5,8 @@
 
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/mesh_rows.hpp"
-#include "coupler/protocol/splitting.hpp"
+#include "coupler/protocol/scene/mesh_rows.hpp"
+#include "coupler/protocol/scene/splitting.hpp"
 #include "launcher/case/forecast/gigabyte.hpp"
 
 namespace turbidite {

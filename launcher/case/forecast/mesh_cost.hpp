@@ -20,7 +20,8 @@ const char* program_name(FluidProgram program);
 /// That of a case whose `auto` has been decided (launcher/case/keys/fluid_program.hpp).
 FluidProgram fluid_program(const Settings& settings);
 
-/// Rows of the mesh (coupler/protocol/mesh_rows.hpp); of equal ones where they cannot be stretched.
+/// Rows of the mesh (coupler/protocol/scene/mesh_rows.hpp); of equal ones where they cannot be
+/// stretched.
 double fluid_rows(const Settings& settings);
 
 /// Cells of the mesh: columns times rows.

@@ -12,7 +12,7 @@
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_spec.hpp"
-#include "coupler/protocol/splitting.hpp"
+#include "coupler/protocol/scene/splitting.hpp"
 #include "coupler/shapes/shape.hpp"
 #include "launcher/case/forecast/gigabyte.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"

@@ -9,7 +9,7 @@
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/mesh_rows.hpp"
+#include "coupler/protocol/scene/mesh_rows.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 

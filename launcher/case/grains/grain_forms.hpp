@@ -10,7 +10,7 @@
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
 #include "coupler/shapes/surface_gap.hpp"
-#include "launcher/case/grains/packing.hpp"
+#include "launcher/case/grains/packing/packing.hpp"
 
 namespace turbidite {
 

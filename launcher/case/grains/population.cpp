@@ -10,7 +10,7 @@
 #include <map>
 
 #include "launcher/case/files/csv_table.hpp"
-#include "launcher/case/grains/neighbour_grid.hpp"
+#include "launcher/case/grains/packing/neighbour_grid.hpp"
 
 namespace turbidite {
 namespace {

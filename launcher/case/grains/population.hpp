@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "coupler/keys/case_error.hpp"
-#include "coupler/protocol/sides.hpp"
+#include "coupler/protocol/scene/sides.hpp"
 #include "launcher/case/grains/grain_forms.hpp"
-#include "launcher/case/grains/packing.hpp"
+#include "launcher/case/grains/packing/packing.hpp"
 
 namespace turbidite {
 

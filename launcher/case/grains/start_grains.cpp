@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/sides.hpp"
+#include "coupler/protocol/scene/sides.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/files/file_names.hpp"
 #include "launcher/case/grains/materials.hpp"

@@ -12,7 +12,7 @@
 #include "coupler/protocol/settings.hpp"
 #include "launcher/case/grains/earlier_run.hpp"
 #include "launcher/case/grains/grain_forms.hpp"
-#include "launcher/case/grains/packing.hpp"
+#include "launcher/case/grains/packing/packing.hpp"
 #include "launcher/case/grains/population.hpp"
 
 namespace turbidite {

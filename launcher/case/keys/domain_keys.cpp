@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/sides.hpp"
+#include "coupler/protocol/scene/sides.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 

@@ -7,9 +7,9 @@
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/mesh_rows.hpp"
-#include "coupler/protocol/sides.hpp"
-#include "coupler/protocol/splitting.hpp"
+#include "coupler/protocol/scene/mesh_rows.hpp"
+#include "coupler/protocol/scene/sides.hpp"
+#include "coupler/protocol/scene/splitting.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/transform_length.hpp"
 #include "launcher/case/keys/fluid_program.hpp"
@@ -49,7 +49,7 @@ constexpr double usual_peak = 6.0;
 constexpr double highest_peak = 8.0;
 
 // Transport is cut into parts with at most this Courant number, up to a largest number of parts
-// (fluid_adapter/box_step/transport_parts.hpp).
+// (fluid_adapter/box_step/transport/transport_parts.hpp).
 constexpr double cells_per_part = 2.0 / 3.0;
 constexpr double most_parts = 1000.0;
 

@@ -5,9 +5,9 @@
 #include "coupler/shapes/shape.hpp"
 #include "launcher/case/grains/grain_abilities.hpp"
 #include "launcher/case/grains/grain_forms.hpp"
-#include "launcher/case/grains/packing.hpp"
-#include "launcher/case/grains/random_packing.hpp"
-#include "launcher/case/grains/space_lattice.hpp"
+#include "launcher/case/grains/packing/packing.hpp"
+#include "launcher/case/grains/packing/random_packing.hpp"
+#include "launcher/case/grains/packing/space_lattice.hpp"
 #include "launcher/case/grains/start_grains.hpp"
 
 #include "coupler/hub/schemes/scheme.hpp"

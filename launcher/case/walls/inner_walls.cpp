@@ -262,7 +262,7 @@ std::string walls_setting(const std::vector<InnerWall>& walls, const Scales& sca
     std::string text;
     for (const InnerWall& wall : walls) {
         const Point2 pivot = wall.pivot.value_or(middle(wall));
-        // The twelve numbers of coupler/protocol/plates.hpp.
+        // The twelve numbers of coupler/protocol/scene/plates.hpp.
         text += fmt::format("{}{} {} {} {} {} {} {} {} {} {} {} {}", text.empty() ? "" : ";",
                             wall.id, wall.from[0] * d, wall.from[1] * d, wall.to[0] * d,
                             wall.to[1] * d, wall.velocity[0] * u, wall.velocity[1] * u,

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "coupler/protocol/space_walls.hpp"
+#include "coupler/protocol/scene/space_walls.hpp"
 #include "launcher/case/grains/population.hpp"
 #include "launcher/case/scales.hpp"
 

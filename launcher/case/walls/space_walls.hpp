@@ -38,7 +38,7 @@ double surface_gap(const InnerWall& wall, const PlacedGrain& sphere);
 /// Length of the smallest box around a wall, parallel to the axes [D].
 Vec3 size_of(const InnerWall& wall);
 
-/// The value of `run.walls` (coupler/protocol/space_walls.hpp), in the run's units.
+/// The value of `run.walls` (coupler/protocol/scene/space_walls.hpp), in the run's units.
 std::string space_walls_setting(const std::vector<InnerWall>& walls, const Scales& scales,
                                 double friction, const std::vector<std::string>& materials);
 

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/plates.hpp"
-#include "coupler/protocol/sides.hpp"
+#include "coupler/protocol/scene/plates.hpp"
+#include "coupler/protocol/scene/sides.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 

@@ -2,7 +2,7 @@
 //
 // Prescribed motions, defined below domain.motions and named by a side of the box
 // (domain.left_motion), by a wall inside it, or by a grain (column motion of both files). Their
-// definition is in coupler/protocol/prescribed_motion.hpp.
+// definition is in coupler/protocol/scene/prescribed_motion.hpp.
 #pragma once
 
 #include <string>

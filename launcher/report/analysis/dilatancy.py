@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import peaks
+from analysis import peaks
 from analysis import packing_triangles, snapshots
 from analysis.once import once_per_run
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import fluid_fields
-import peaks
+from analysis import peaks
 from analysis import snapshots
 from analysis.once import once_per_run
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import peaks
+from analysis import peaks
 from analysis import coarse_grid, packing_triangles, snapshots
 from analysis.once import once_per_run
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import findings
-import peaks
+from analysis import peaks
 from analysis import deposit, energy, phases, pore_pressure, pores, shear_band, waves
 from differences import difference
 from paper import waiting

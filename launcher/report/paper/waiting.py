@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import peaks
-import relaxation
+from analysis import peaks, relaxation
 from paper.selection import spread
 
 AT_ONCE = 1.0          # t_c: a column that waits less has not waited

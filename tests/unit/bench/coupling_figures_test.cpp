@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "bench/coupling/coupling_figures.hpp"
 #include "bench/coupling/stamped_channel.hpp"
-#include "bench/coupling_figures.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "coupler/transport/loopback_channel.hpp"
 #include "tests/unit/case/scratch_folder.hpp"

@@ -5,8 +5,8 @@
 
 #include <fstream>
 
-#include "bench/site.hpp"
-#include "bench/start_flow.hpp"
+#include "bench/fluid/start_flow.hpp"
+#include "bench/timing/site.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 

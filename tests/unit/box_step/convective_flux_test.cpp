@@ -3,7 +3,7 @@
 // limitedLinearV where u is smooth: the carried momentum of Taylor-Green vortices in a stream,
 // u = cos x sin y + 0.3, v = -sin x cos y + 0.2, against (u . grad) u. The scheme's equality with
 // OpenFOAM's is in tests/physics/fluid_step_test.cpp.
-#include "fluid_adapter/box_step/convective_flux.hpp"
+#include "fluid_adapter/box_step/transport/convective_flux.hpp"
 
 #include <gtest/gtest.h>
 

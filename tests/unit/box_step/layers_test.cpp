@@ -10,7 +10,7 @@
 #include <random>
 
 #include "fluid_adapter/box_step/box_step.hpp"
-#include "fluid_adapter/box_step/second_order.hpp"
+#include "fluid_adapter/box_step/transport/second_order.hpp"
 
 namespace turbidite {
 namespace {

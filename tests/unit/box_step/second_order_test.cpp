@@ -8,7 +8,7 @@
 //
 // to t = 1/2, where the vortex has moved by half the box and lost a third. Compared after a last
 // projection, which is the beginning of the next window.
-#include "fluid_adapter/box_step/second_order.hpp"
+#include "fluid_adapter/box_step/transport/second_order.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@
 #include <numbers>
 
 #include "fluid_adapter/box_step/box_step.hpp"
-#include "fluid_adapter/box_step/transport_parts.hpp"
+#include "fluid_adapter/box_step/transport/transport_parts.hpp"
 
 namespace turbidite {
 namespace {

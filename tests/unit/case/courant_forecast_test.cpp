@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "coupler/output/courant_limit.hpp"
+#include "coupler/output/measures/courant_limit.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {

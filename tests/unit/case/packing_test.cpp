@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/case/grains/packing.hpp"
+#include "launcher/case/grains/packing/packing.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
-#include "launcher/case/grains/lattice.hpp"
+#include "launcher/case/grains/packing/lattice.hpp"
+#include "launcher/case/grains/packing/random_numbers.hpp"
+#include "launcher/case/grains/packing/random_packing.hpp"
 #include "launcher/case/grains/population.hpp"
-#include "launcher/case/grains/random_numbers.hpp"
-#include "launcher/case/grains/random_packing.hpp"
 
 namespace turbidite {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "launcher/case/case_file.hpp"
 #include "launcher/case/grains/grain_forms.hpp"
-#include "launcher/case/grains/random_packing.hpp"
+#include "launcher/case/grains/packing/random_packing.hpp"
 #include "launcher/case/walls/inner_walls.hpp"
 #include "tests/unit/case/case_test.hpp"
 

@@ -6,17 +6,17 @@
 #include <numbers>
 
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/prescribed_motion.hpp"
 #include "coupler/protocol/run_values.hpp"
-#include "coupler/protocol/sides.hpp"
+#include "coupler/protocol/scene/prescribed_motion.hpp"
+#include "coupler/protocol/scene/sides.hpp"
 #include "launcher/case/forecast/disk_cost.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
-#include "launcher/case/grains/neighbour_grid.hpp"
+#include "launcher/case/grains/packing/neighbour_grid.hpp"
+#include "launcher/case/grains/packing/pouring.hpp"
+#include "launcher/case/grains/packing/space_lattice.hpp"
+#include "launcher/case/grains/packing/space_packing.hpp"
 #include "launcher/case/grains/population.hpp"
-#include "launcher/case/grains/pouring.hpp"
-#include "launcher/case/grains/space_lattice.hpp"
-#include "launcher/case/grains/space_packing.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {

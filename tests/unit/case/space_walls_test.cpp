@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupler/protocol/plates.hpp"
+#include "coupler/protocol/scene/plates.hpp"
 #include "coupler/rigid/vec3.hpp"
 #include "tests/unit/case/case_test.hpp"
 

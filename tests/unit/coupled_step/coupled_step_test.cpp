@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "fluid_adapter/box_step/second_order.hpp"
+#include "fluid_adapter/box_step/transport/second_order.hpp"
 
 #include "tests/unit/coupled_step/tank.hpp"
 

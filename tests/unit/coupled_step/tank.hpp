@@ -8,7 +8,7 @@
 #include <string>
 
 #include "fluid_adapter/coupled_step/coupled_step.hpp"
-#include "fluid_adapter/multiplier/plane_constraint.hpp"
+#include "fluid_adapter/multiplier/plane/plane_constraint.hpp"
 #include "tests/unit/multiplier/memory_field.hpp"
 
 namespace turbidite {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/output/contact_network.hpp"
+#include "coupler/output/measures/contact_network.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/output/grain_work.hpp"
+#include "coupler/output/measures/grain_work.hpp"
 
 #include <gtest/gtest.h>
 

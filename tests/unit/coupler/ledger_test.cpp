@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/hub/ledger.hpp"
+#include "coupler/hub/checks/ledger.hpp"
 
 #include <gtest/gtest.h>
 

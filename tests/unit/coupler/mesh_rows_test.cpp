@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/protocol/mesh_rows.hpp"
+#include "coupler/protocol/scene/mesh_rows.hpp"
 
 #include <gtest/gtest.h>
 

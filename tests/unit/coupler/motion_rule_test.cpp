@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "coupler/hub/motion_rule.hpp"
+#include "coupler/hub/checks/motion_rule.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "coupler/transport/loopback_channel.hpp"
 #include "tests/unit/coupler/test_case.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupler/output/pore_volume.hpp"
+#include "coupler/output/measures/pore_volume.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "coupler/output/delaunay.hpp"
+#include "coupler/output/measures/delaunay.hpp"
 
 namespace turbidite {
 namespace {

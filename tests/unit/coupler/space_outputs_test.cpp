@@ -10,9 +10,9 @@
 
 #include "coupler/hub/kick_rule.hpp"
 #include "coupler/output/history.hpp"
-#include "coupler/output/pore_voxels.hpp"
-#include "coupler/protocol/plates.hpp"
-#include "coupler/protocol/prescribed_motion.hpp"
+#include "coupler/output/measures/pore_voxels.hpp"
+#include "coupler/protocol/scene/plates.hpp"
+#include "coupler/protocol/scene/prescribed_motion.hpp"
 #include "tests/run_settings.hpp"
 
 namespace turbidite {

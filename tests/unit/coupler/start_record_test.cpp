@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Who of a job has not come as far as a step of its start.
-#include "coupler/protocol/start_record.hpp"
+#include "coupler/protocol/files/start_record.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "coupler/protocol/run_files.hpp"
+#include "coupler/protocol/files/run_files.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
 namespace turbidite {

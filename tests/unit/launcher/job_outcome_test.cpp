@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include "coupler/protocol/run_files.hpp"
-#include "launcher/job/run_json.hpp"
+#include "coupler/protocol/files/run_files.hpp"
+#include "launcher/job/folder/run_json.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
 namespace turbidite {

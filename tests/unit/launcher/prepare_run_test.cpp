@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "coupler/protocol/failure.hpp"
-#include "launcher/job/run_json.hpp"
+#include "launcher/job/folder/run_json.hpp"
 #include "tests/call_trace.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 

@@ -18,7 +18,7 @@ import fluid_fields
 import grain_drawing
 import grain_files
 import pictures
-import relaxation
+from analysis import relaxation
 import report
 import run_data
 import surface

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "launcher/job/run_lock.hpp"
+#include "launcher/job/folder/run_lock.hpp"
 
 #include <gtest/gtest.h>
 
 #include "coupler/protocol/failure.hpp"
-#include "launcher/job/set_aside.hpp"
+#include "launcher/job/folder/set_aside.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
 namespace turbidite {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/multiplier/plane/collocation_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "fluid_adapter/multiplier/boundary_operator.hpp"
 #include "fluid_adapter/multiplier/neighbours.hpp"
+#include "fluid_adapter/multiplier/plane/boundary_operator.hpp"
 #include "tests/unit/multiplier/memory_field.hpp"
 
 namespace turbidite {

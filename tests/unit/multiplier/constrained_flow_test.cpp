@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "fluid_adapter/multiplier/saddle_operator.hpp"
+#include "fluid_adapter/multiplier/plane/saddle_operator.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fluid_adapter/multiplier/uzawa_cg.hpp"
+#include "fluid_adapter/multiplier/plane/uzawa_cg.hpp"
 #include "tests/unit/multiplier/dense_reference.hpp"
 #include "tests/unit/multiplier/memory_field.hpp"
 

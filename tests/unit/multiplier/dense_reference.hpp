@@ -10,7 +10,7 @@
 #include <Eigen/SparseCore>
 #include <array>
 
-#include "fluid_adapter/multiplier/collocation_points.hpp"
+#include "fluid_adapter/multiplier/plane/collocation_points.hpp"
 
 namespace turbidite {
 

@@ -10,9 +10,9 @@
 
 #include "coupler/shapes/disc.hpp"
 #include "coupler/shapes/immersed_body.hpp"
-#include "fluid_adapter/multiplier/boundary_operator.hpp"
 #include "fluid_adapter/multiplier/fluid_field.hpp"
-#include "fluid_adapter/multiplier/planar.hpp"
+#include "fluid_adapter/multiplier/plane/boundary_operator.hpp"
+#include "fluid_adapter/multiplier/plane/planar.hpp"
 
 namespace turbidite {
 

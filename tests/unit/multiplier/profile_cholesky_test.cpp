@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "fluid_adapter/multiplier/profile_cholesky.hpp"
+#include "fluid_adapter/multiplier/plane/profile_cholesky.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // The multiplier method on cells of different sizes: what is exact on a uniform grid remains exact.
 #include <gtest/gtest.h>
 
-#include "fluid_adapter/multiplier/uzawa_cg.hpp"
+#include "fluid_adapter/multiplier/plane/uzawa_cg.hpp"
 #include "tests/unit/multiplier/dense_reference.hpp"
 #include "tests/unit/multiplier/memory_field.hpp"
 

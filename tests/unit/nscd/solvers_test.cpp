@@ -233,7 +233,7 @@ TEST(CentralPath, SolvesPerfectLatticesThatHaveHardlyMoved) {
 
 // The paper's column at 14 x 28 D after 0.1 t_c. A path that starts at Coulomb's law has about a
 // hundred turning points here and is not complete after 10,000 iterations, nor after 30,000 on the
-// column of bench/tight_column.cpp.
+// column of bench/contact/tight_column.cpp.
 TEST(CentralPath, TakesFewIterationsOnALargerYoungLattice) {
     const ContactProblem problem = young_lattice(14, 32, 11);
     ASSERT_GT(problem.contacts.size(), 1200u);

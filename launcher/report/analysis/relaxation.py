@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The relaxation time of an avalanche: how long a dense packing waits before it slides.
+
+Topin et al. 2011, section 3.3: the straight line that fits the acceleration phase of the mean velocity meets the time
+axis at t_relax. The acceleration phase is where |<u>| rises most steeply over one t_c. Where that is at the end of the
+run, the acceleration phase may still come: a steeper line meets the axis later, so that t_relax has a lower bound only.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis import peaks
+from analysis.once import once_per_run
+
+FIT = 1.0                     # t_c, length of the fitted phase, or two rows of the history if these are longer
+OTHER_FITS = (0.5, 1.5, 2.0)  # t_c, to see how much it depends on that
+LEAST_PEAK = 0.1              # u_c: below, nothing has slid
+STEEPER = 1.0 + 1e-9          # a slope that rounding alone makes larger is the same
+
+
+@dataclass
+class Relaxation:
+    """u = slope (t - time) from `begin` to `end`; times in t_c, velocities in u_c."""
+
+    time: float    # t_relax
+    lowest: float  # of fits of all lengths that overlap this one
+    highest: float
+    slope: float
+    begin: float
+    end: float
+    bound: bool = False  # the fit ends with the run: t_relax is later than `time`
+
+    @property
+    def spread(self):
+        return self.highest - self.lowest
+
+    @property
+    def text(self):
+        return f'> {np.floor(100.0 * self.time) / 100.0:.2f}' if self.bound else f'{self.time:.2f}'
+
+
+@once_per_run
+def relaxation(run):
+    """None unless the scales are an avalanche's and it has slid."""
+    if not run.is_avalanche():
+        return None
+    time, velocity = run.column(peaks.COLUMN)
+    if len(velocity) == 0 or velocity.max() < LEAST_PEAK:
+        return None
+    highest = int(velocity.argmax())
+    rising = time[:highest + 1], velocity[:highest + 1]
+    shortest = 2.0 * float(time[1] - time[0])
+    found = steepest(*rising, max(FIT, shortest))
+    if found is None:
+        return None
+    others = [steepest(*rising, max(length, shortest), near=found) for length in OTHER_FITS]
+    times = [fit.time for fit in (found, *others) if fit is not None]
+    found.lowest, found.highest = min(times), max(times)
+    found.bound = found.end >= time[-1]
+    return found
+
+
+def steepest(time, velocity, length, near=None):
+    """The steepest least-squares line over the rows of this length, of those that overlap the fit `near`; None if they
+    are too few."""
+    best = None
+    for first in range(len(time)):
+        part = slice(first, int(np.searchsorted(time, time[first] + length * (1.0 + 1e-9), side='right')))
+        if time[-1] < time[first] + length * (1.0 - 1e-9) or len(time[part]) < 3:
+            continue
+        if near is not None and (time[part][-1] <= near.begin or time[first] >= near.end):
+            continue
+        slope, level = np.polyfit(time[part], velocity[part], 1)
+        if slope > 0.0 and (best is None or slope > STEEPER * best.slope):
+            crossing = float(-level / slope)
+            best = Relaxation(crossing, crossing, crossing, float(slope), float(time[first]), float(time[part][-1]))
+    return best
+
+
+def relaxation_time(run):
+    """t_relax [t_c]; None where the run does not tell it, bounds included."""
+    found = relaxation(run)
+    return found.time if found and not found.bound else None
+
+
+def relaxation_bound(run):
+    """What t_relax exceeds [t_c], where the run tells a bound only."""
+    found = relaxation(run)
+    return found.time if found and found.bound else None
+
+
+def draw(run, axes):
+    """The line of the fit, from the time axis to the peak, over a plot of the mean velocity."""
+    found = relaxation(run)
+    if found is None:
+        return
+    top = float(run.column(peaks.COLUMN)[1].max())
+    axes.plot([found.time, found.time + top / found.slope], [0.0, top], color='black', linewidth=0.8, linestyle='--',
+              label=rf'fit, $t_\mathrm{{relax}} {"" if found.bound else "= "}{found.text}\,t_c$')
+
+
+def caption(run):
+    found = relaxation(run)
+    if found is None:
+        return ''
+    if found.bound:
+        return (f'Relaxation time {found.text} t_c: the grains accelerate most at the end of the run (t = {found.begin:.2f} '
+                f'to {found.end:.2f} t_c), so that the straight fit there bounds it from below.')
+    return (f'Relaxation time {found.text} t_c: where the steepest straight fit (t = {found.begin:.2f} to '
+            f'{found.end:.2f} t_c) meets the time axis; {found.lowest:.2f} to {found.highest:.2f} t_c with fits over '
+            f'{min(OTHER_FITS):g} to {max(OTHER_FITS):g} t_c.')
