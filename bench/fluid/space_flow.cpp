@@ -3,17 +3,22 @@
 // Spheres in a fluid in space, without a coupler: figures that have published or exact values.
 //
 //     turbidite-bench-space array --fraction 0.064 --cells 20 --shift 0.25
+//     turbidite-bench-space packing --kind random --fraction 0.6 --cells 28 --shift 0.12
 //     turbidite-bench-space settle --cells-per-diameter 8 --shift 0.25
 //
 // `array`: the drag K = F/(6 pi eta R U) of a simple cubic array in Stokes flow, at random places
 // in the grid; published: 2.008, 2.810 and 4.292 at 0.027, 0.064 and 0.125 (Zick and Homsy 1982).
+// `packing`: the permeability k = nu U/a of dense packings in Stokes flow.
 // `settle`: how a settling sphere's speed varies with its place in the grid.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <stdexcept>
+#include <vector>
 
 #include "coupler/protocol/scene/splitting.hpp"
 #include "fluid_adapter/box_app/array_store.hpp"
@@ -120,19 +125,69 @@ class Play {
     std::int64_t index_ = 0;
 };
 
-struct ArrayCase {
-    double fraction = 0.064;
-    int cells = 20, offsets = 8;
+/// Fixed spheres in a cyclic cube.
+struct Packing {
+    double length = 1.0;
+    std::vector<Vec3> centres;
+};
+
+Packing simple_cubic(double fraction) {
+    return {std::cbrt(pi / 6.0 / fraction), {Vec3{}}};
+}
+
+/// Face-centred cubic: four spheres per cube.
+Packing face_centred(double fraction) {
+    const double length = std::cbrt(4.0 * pi / 6.0 / fraction), half = 0.5 * length;
+    return {length, {Vec3{}, {half, half, 0.0}, {half, 0.0, half}, {0.0, half, half}}};
+}
+
+/// From centre a to the nearest image of centre b.
+Vec3 to_nearest(const Packing& packing, const Vec3& a, const Vec3& b) {
+    Vec3 d = b - a;
+    for (int axis = 0; axis < 3; ++axis)
+        d[axis] -= packing.length * std::round(d[axis] / packing.length);
+    return d;
+}
+
+/// Random places, pushed apart until no two spheres overlap by more than 1e-3 D: to 0.62 or so.
+Packing random_packing(double fraction, int count, unsigned seed) {
+    Packing packing{std::cbrt(count * pi / 6.0 / fraction), std::vector<Vec3>(count)};
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(0.0, packing.length);
+    for (Vec3& centre : packing.centres) {
+        const double x = place(random), y = place(random);
+        centre = {x, y, place(random)};
+    }
+    double overlap = 1.0;
+    for (int round = 0; round < 200000 && overlap > 1e-3; ++round) {
+        overlap = 0.0;
+        for (int a = 0; a < count; ++a)
+            for (int b = a + 1; b < count; ++b) {
+                const Vec3 d = to_nearest(packing, packing.centres[a], packing.centres[b]);
+                const double distance = norm(d);
+                if (distance >= 1.0) continue;
+                overlap = std::max(overlap, 1.0 - distance);
+                const Vec3 push = (0.5 * (1.0 - distance) / distance) * d;
+                packing.centres[a] = packing.centres[a] - push;
+                packing.centres[b] = packing.centres[b] + push;
+            }
+    }
+    if (overlap > 1e-3) throw std::runtime_error("these spheres do not fit at that fraction");
+    return packing;
+}
+
+struct StokesCase {
+    int cells = 20;
     double shift = 0.25, viscous_number = 0.2;
     std::string splitting = "explicit-multiplier";
 };
 
-/// K at one place of the sphere.
-double drag_of_array(const ArrayCase& of, const Vec3& offset) {
-    const double length = std::cbrt(pi / 6.0 / of.fraction);
+/// Mean velocity U of a liquid that a force rho a drives slowly through fixed spheres, over nu
+/// a/D^2 with nu = 1: what the force does not lose is the drag of the spheres, rho a L^3 = sum F.
+double superficial_velocity(const Packing& packing, const StokesCase& of, const Vec3& offset) {
     Flow flow;
     flow.cells.fill(of.cells);
-    flow.edge = length / of.cells;
+    flow.edge = packing.length / of.cells;
     flow.sides.fill(Side::cyclic);
     flow.shift = of.shift;
     flow.splitting = of.splitting;
@@ -140,34 +195,70 @@ double drag_of_array(const ArrayCase& of, const Vec3& offset) {
     flow.acceleration = {1e-3, 0.0, 0.0};
     flow.velocity = 1e-4;
     Play play(flow);
-    GrainState fixed = sphere(flow.edge * offset + 0.5 * length * Vec3{1.0, 1.0, 1.0}, 1.5);
-    fixed.prescribed = true;
-    std::vector<GrainState> grains = {fixed};
+    std::vector<GrainState> grains;
+    for (const Vec3& centre : packing.centres) {
+        Vec3 at = flow.edge * offset + centre + 0.5 * packing.length * Vec3{1.0, 1.0, 1.0};
+        for (int axis = 0; axis < 3; ++axis)
+            at[axis] -= packing.length * std::floor(at[axis] / packing.length);
+        grains.push_back(sphere(at, 1.5));
+        grains.back().id = static_cast<GrainId>(grains.size());
+        grains.back().prescribed = true;
+    }
+    // The flow is steady when it changes by less than 1e-5 within a twentieth of the diffusion time
+    // of the wider of cube and sphere, whose pores are smaller.
+    const double width = packing.centres.size() > 1 ? 1.0 : packing.length;
+    const int check = std::max(1, static_cast<int>(0.05 * width * width / flow.step));
     double before = 0.0, now = 0.0;
-    const int check = std::max(1, static_cast<int>(0.05 * length * length / flow.step));
     for (int window = 0; window < 200000; ++window) {
         play.next(grains);
         if (window % check != check - 1) continue;
         before = std::exchange(now, play.mean_velocity()[0]);
         if (std::abs(now - before) < 1e-5 * std::abs(now)) break;
     }
-    // rho a L^3 = 6 pi eta R U K
-    return flow.acceleration[0] * length * length * length / (3.0 * pi * now);
+    return now / flow.acceleration[0];
 }
 
-void print_array(const ArrayCase& of) {
+/// Velocities at random places of the packing in the grid.
+std::vector<double> velocities(const Packing& packing, const StokesCase& of, int offsets) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(0.0, 1.0);
-    const double length = std::cbrt(pi / 6.0 / of.fraction);
-    double low = 1e300, high = 0.0, sum = 0.0;
-    for (int n = 0; n < of.offsets; ++n) {
+    std::vector<double> all;
+    for (int n = 0; n < offsets; ++n) {
         const double x = place(random), y = place(random), z = place(random);
-        const double drag = drag_of_array(of, {x, y, z});
-        low = std::min(low, drag), high = std::max(high, drag), sum += drag;
+        all.push_back(superficial_velocity(packing, of, {x, y, z}));
     }
+    return all;
+}
+
+double mean(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+void print_array(double fraction, const StokesCase& of, int offsets) {
+    const Packing packing = simple_cubic(fraction);
+    // rho a L^3 = 6 pi eta R U K
+    const double all = std::pow(packing.length, 3) / (3.0 * pi);
+    std::vector<double> drags;
+    for (const double velocity : velocities(packing, of, offsets)) drags.push_back(all / velocity);
     std::printf("c %.4g  D/h %.2f  shift %.3g  nu dt/h2 %.3g  %s: K %.4f (%.4f to %.4f)\n",
-                of.fraction, of.cells / length, of.shift, of.viscous_number, of.splitting.c_str(),
-                sum / of.offsets, low, high);
+                fraction, of.cells / packing.length, of.shift, of.viscous_number,
+                of.splitting.c_str(), mean(drags), *std::ranges::min_element(drags),
+                *std::ranges::max_element(drags));
+    std::fflush(stdout);
+}
+
+void print_permeability(const Packing& packing, const StokesCase& of, int offsets) {
+    // Darcy: U = k/(rho nu) rho a
+    const std::vector<double> k = velocities(packing, of, offsets);
+    const double count = static_cast<double>(packing.centres.size());
+    const double fraction = count * pi / 6.0 / std::pow(packing.length, 3), pores = 1.0 - fraction;
+    std::printf(
+        "%d spheres  c %.4g  D/h %.2f  shift %.3g  nu dt/h2 %.3g  %s: k/D2 %.4e (%.4e to "
+        "%.4e)  drag of one K %.1f  Carman-Kozeny %.4e\n",
+        static_cast<int>(count), fraction, of.cells / packing.length, of.shift, of.viscous_number,
+        of.splitting.c_str(), mean(k), *std::ranges::min_element(k), *std::ranges::max_element(k),
+        std::pow(packing.length, 3) / (3.0 * pi * count * mean(k)),
+        std::pow(pores, 3) / (180.0 * fraction * fraction));
     std::fflush(stdout);
 }
 
@@ -234,14 +325,27 @@ int main(int argc, char** argv) {
     using namespace turbidite;
     CLI::App app{"figures of spheres in a fluid, without a coupler"};
     app.require_subcommand(1);
-    ArrayCase array;
+    StokesCase stokes;
+    double fraction = 0.064;
+    int offsets = 8, count = 50;
+    unsigned seed = 1;
+    std::string kind = "random";
+    const auto add_stokes = [&](CLI::App* command) {
+        command->add_option("--fraction", fraction, "volume fraction of the spheres");
+        command->add_option("--cells", stokes.cells, "cells along the period");
+        command->add_option("--shift", stokes.shift, "of the surface, in cells");
+        command->add_option("--viscous-number", stokes.viscous_number, "nu dt/h2");
+        command->add_option("--offsets", offsets, "random places in the grid");
+        command->add_option("--splitting", stokes.splitting);
+    };
     CLI::App* arrays = app.add_subcommand("array", "drag of a simple cubic array in Stokes flow");
-    arrays->add_option("--fraction", array.fraction, "volume fraction");
-    arrays->add_option("--cells", array.cells, "cells along the period");
-    arrays->add_option("--shift", array.shift, "of the surface, in cells");
-    arrays->add_option("--viscous-number", array.viscous_number, "nu dt/h2");
-    arrays->add_option("--offsets", array.offsets, "random places of the sphere in the grid");
-    arrays->add_option("--splitting", array.splitting);
+    CLI::App* packings = app.add_subcommand("packing", "permeability of a packing in Stokes flow");
+    add_stokes(arrays);
+    add_stokes(packings);
+    packings->add_option("--kind", kind, "fcc: face-centred cubic, or random")
+        ->check(CLI::IsMember({"fcc", "random"}));
+    packings->add_option("--count", count, "of random spheres");
+    packings->add_option("--seed", seed, "of random spheres");
     SettleCase settle;
     CLI::App* settles = app.add_subcommand("settle", "a sphere settles");
     settles->add_option("--cells-per-diameter", settle.per_diameter);
@@ -253,7 +357,11 @@ int main(int argc, char** argv) {
     settles->add_option("--shift", settle.shift, "of the surface, in cells");
     settles->add_option("--splitting", settle.splitting);
     CLI11_PARSE(app, argc, argv);
-    if (*arrays) print_array(array);
+    if (*arrays) print_array(fraction, stokes, offsets);
+    if (*packings)
+        print_permeability(
+            kind == "fcc" ? face_centred(fraction) : random_packing(fraction, count, seed), stokes,
+            offsets);
     if (*settles) print_settling(settle);
     return 0;
 }

@@ -43,8 +43,11 @@ class Complaints {
 std::string value_text(const YAML::Node& node) {
     if (node.IsScalar()) return node.Scalar();
     if (node.IsNull()) return "~";
+    // On one line: --set takes no lists in block form. A node keeps the form it was written in.
+    YAML::Node flow = YAML::Clone(node);
+    flow.SetStyle(YAML::EmitterStyle::Flow);
     YAML::Emitter text;
-    text << YAML::Flow << node;
+    text << flow;
     return text.c_str();
 }
 

@@ -64,7 +64,7 @@ TEST_P(ShippedAdapterInSpace, Conforms) {
 
 // What the dimension changes: the liquid's kick, and contacts.
 TEST_F(AdapterTest, HostsInYadeConformInSpace) {
-    for (const std::string& name : {"yade-nscd", "yade-md"}) {
+    for (const std::string name : {"yade-nscd", "yade-md"}) {
         const std::string program = "--dimension 3 --adapter " + name;
         const Answer wet = judge(program + " --only '('");
         EXPECT_EQ(wet.code, 0) << wet.out << wet.err;

@@ -3,7 +3,10 @@
 // Windows of a fluid in space: a sphere that sinks in a box.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 
 #include "fluid_adapter/box_app/array_store.hpp"
 #include "fluid_adapter/fluid_window/fluid_window.hpp"
@@ -152,6 +155,61 @@ TEST_P(SpaceWindows, ANeutralSphereMovesWithADrivenStream) {
         }
         EXPECT_LT(kicks.kicks[0].multiplier_impulse[0], 0.0) << "V(R_h) is larger than V";
     }
+}
+
+/// Steady flow along a square duct of side 1 by a body force a along it, nu = 1, between walls
+/// above and below, in front and behind:
+///     u = 4 a/pi^3 sum_odd 1/n^3 (1 - cosh(n pi s)/cosh(n pi/2)) sin(n pi y),  s = z - 1/2
+double duct_velocity(double y, double z, double a) {
+    using std::numbers::pi;
+    double sum = 0.0;
+    for (int n = 1; n < 60; n += 2)
+        sum += (1.0 - std::cosh(n * pi * (z - 0.5)) / std::cosh(0.5 * n * pi)) *
+               std::sin(n * pi * y) / (n * n * n);
+    return 4.0 * a / (pi * pi * pi) * sum;
+}
+
+/// Largest error over the largest velocity, with n cells along both sides.
+double error_of_duct(int n) {
+    constexpr double a = 2.0;
+    ArrayBox duct;
+    const double h = 1.0 / n;
+    duct.grid = grid_of_cubes({4, n, n}, h, sides);
+    duct.viscosity = 1.0;
+    Settings driven = settings("marchuk-yanenko");
+    driven.set("run.size_x", 4 * h);
+    driven.set("run.size_y", 1.0);
+    driven.set("run.size_z", 1.0);
+    driven.set("run.viscosity", 1.0);
+    driven.set("run.acceleration_x", a);
+    driven.set("run.acceleration_y", 0.0);
+    ArrayStore store(duct);
+    FluidWindow window(store, driven, {{"sphere", {}}});
+    constexpr double dt = 0.02;
+    for (std::int64_t index = 0; index < 60; ++index) {
+        window.advance({index, dt * static_cast<double>(index), dt, false});
+        window.correct({});
+        EXPECT_LT(window.impose().report.momentum_defect, 1e-9);
+    }
+    double largest = 0.0, error = 0.0;
+    for (int j = 0; j < n; ++j)
+        for (int k = 0; k < n; ++k) {
+            const double exact = duct_velocity((j + 0.5) * h, (k + 0.5) * h, a);
+            const int cell = 4 * (k + n * j);
+            largest = std::max(largest, exact);
+            error = std::max(error, std::abs(store.field().velocity(0)[cell] - exact));
+            EXPECT_NEAR(store.field().velocity(1)[cell], 0.0, 1e-12);
+            EXPECT_NEAR(store.field().velocity(2)[cell], 0.0, 1e-12);
+        }
+    EXPECT_NEAR(largest, 0.0737 * a, 0.003 * a) << "the flow is that of a duct";
+    std::printf("square duct, %d cells: largest error %.2e of %.4f\n", n, error, largest);
+    return error / largest;
+}
+
+TEST(SquareDuct, FlowConvergesInSecondOrder) {
+    const double coarse = error_of_duct(12), fine = error_of_duct(24);
+    EXPECT_LT(fine, 0.3 * coarse);
+    EXPECT_LT(fine, 5e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Splittings, SpaceWindows,

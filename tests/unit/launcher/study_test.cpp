@@ -77,6 +77,21 @@ TEST_F(StudyTest, ListsAreValuesToo) {
     EXPECT_GT(runs[1].resolve().population.size(), runs[0].resolve().population.size());
 }
 
+TEST_F(StudyTest, ListsAreWrittenInAnyForm) {
+    const std::string in_block = R"(
+case: column.yaml
+set:
+  grains.region:
+    - 6
+    - 4
+)";
+    const auto runs = plan(in_block);
+    ASSERT_EQ(runs.size(), 1u);
+    EXPECT_EQ(runs[0].resolve().settings.text("grains.region"),
+              plan("{case: column.yaml, set: {grains.region: [6, 4]}}")[0].resolve().settings.text(
+                  "grains.region"));
+}
+
 TEST_F(StudyTest, HasPartsAndRunsWithoutASweep) {
     const auto runs = plan(R"(
 parts:
