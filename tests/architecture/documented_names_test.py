@@ -4,7 +4,8 @@
 Links of all pages lead to a file and a heading; files that a page shows whole are shown as they are; pages that sources
 name exist. In the README, the decisions, the theory and the pages folders, running and window every name in back-quotes
 exists: files, folders, keys of a case, tests, and every word of the rest
-somewhere in the sources. Folders under another licence than most are in the licences of docs/folders.md.
+somewhere in the sources. Folders under another licence than most are in the licences of docs/folders.md. docs/running.md lists
+the keys that may change at resume.
 usage: documented_names_test.py PROJECT_FOLDER
 """
 import functools
@@ -129,6 +130,14 @@ class Names(unittest.TestCase):
             with self.subTest(page.name):
                 self.assertEqual([name for name in sorted(names(page.read_text())) if not tree.has(name)], [])
 
+    def test_keys_that_may_change_at_resume_are_listed(self):
+        source = (self.folder / "launcher/job/resume_run.cpp").read_text()
+        allowed = re.findall(r'"([\w.]+)"', re.search(r"keys_that_may_change\(\) \{\n.*?\{(.*?)\}", source, flags=re.S)[1])
+        page = (self.folder / "docs/running.md").read_text()
+        section = re.search(r"^## What may change at resume\n(.*?)^## ", page, flags=re.M | re.S)[1]
+        listed = [name for row in re.findall(r"^\| (`.*?`) \| ", section, flags=re.M) for name in re.findall(r"`([^`]+)`", row)]
+        self.assertGreater(len(allowed), 10)
+        self.assertEqual(sorted(name.rstrip("*") for name in listed), sorted(allowed))
 
     def test_folders_under_another_licence_are_named(self):
         licence = re.compile(r"SPDX-License-Identifier: (L?GPL-[\d.]+-or-later)")

@@ -95,7 +95,7 @@ class Documentation(unittest.TestCase):
                           if not (self.folder / name).exists()], [])
 
     def test_figures_exist(self):
-        sources = "".join(path.read_text() for path in (self.folder / "bench").glob("*.cpp"))
+        sources = "".join(path.read_text() for path in (self.folder / "bench").rglob("*.cpp"))
         named = {(page, name) for page, text in self.pages().items() for name in figures_named(text)}
         self.assertGreater(len(named), 3)
         self.assertEqual([f"docs/{page}.md: {name}" for page, name in sorted(named) if f'"{name}"' not in sources], [])
