@@ -102,6 +102,14 @@ std::string forbidden_changes(const Settings& now, const Settings& then,
     return lines;
 }
 
+/// For readers: "checkpoint.*" is all keys of that group.
+std::vector<std::string> names_of_keys_that_may_change() {
+    std::vector<std::string> names = keys_that_may_change();
+    for (std::string& name : names)
+        if (name.back() == '.') name += '*';
+    return names;
+}
+
 void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const Chosen& chosen,
                    const std::vector<std::string>& overrides) {
     const std::string changes =
@@ -110,7 +118,7 @@ void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const 
         throw refused(folder.root, fmt::format("cannot go on as another case:{}", changes),
                       fmt::format("These keys may change: {}. For all others start a new run, with "
                                   "--from for its grains.",
-                                  fmt::join(keys_that_may_change(), ", ")));
+                                  fmt::join(names_of_keys_that_may_change(), ", ")));
     const std::int64_t windows = resolved.settings.integer("run.windows");
     // The same end is allowed: it is found out later that all is done.
     if (windows < chosen.manifest.windows)

@@ -20,7 +20,7 @@ struct ProgramMemory {
     double without_cells;
 };
 constexpr ProgramMemory of_openfoam{750.0, 80.0, 190.0, 1e8};
-constexpr ProgramMemory of_box{95.0, 95.0, 150.0, 5e7};
+constexpr ProgramMemory of_box{95.0, 95.0, 75.0, 5e7};
 
 }  // namespace
 
