@@ -103,7 +103,7 @@ std::string forbidden_changes(const Settings& now, const Settings& then,
 }
 
 /// For readers: "checkpoint.*" is all keys of that group.
-std::vector<std::string> names_of_keys_that_may_change() {
+std::vector<std::string> readable_keys() {
     std::vector<std::string> names = keys_that_may_change();
     for (std::string& name : names)
         if (name.back() == '.') name += '*';
@@ -118,7 +118,7 @@ void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const 
         throw refused(folder.root, fmt::format("cannot go on as another case:{}", changes),
                       fmt::format("These keys may change: {}. For all others start a new run, with "
                                   "--from for its grains.",
-                                  fmt::join(names_of_keys_that_may_change(), ", ")));
+                                  fmt::join(readable_keys(), ", ")));
     const std::int64_t windows = resolved.settings.integer("run.windows");
     // The same end is allowed: it is found out later that all is done.
     if (windows < chosen.manifest.windows)
