@@ -205,9 +205,9 @@ double superficial_velocity(const Packing& packing, const StokesCase& of, const 
         grains.back().prescribed = true;
     }
     // The flow is steady when it changes by less than 1e-5 within a twentieth of the diffusion time
-    // of the wider of cube and sphere, whose pores are smaller.
-    const double width = packing.centres.size() > 1 ? 1.0 : packing.length;
-    const int check = std::max(1, static_cast<int>(0.05 * width * width / flow.step));
+    // of the cube, or of a pore of a packing, 0.3 D wide.
+    const double width = packing.centres.size() > 1 ? 0.3 : packing.length;
+    const int check = std::max(5, static_cast<int>(0.05 * width * width / flow.step));
     double before = 0.0, now = 0.0;
     for (int window = 0; window < 200000; ++window) {
         play.next(grains);

@@ -19,6 +19,7 @@
 #include "launcher/case/resolved_text.hpp"
 #include "launcher/case/run_settings.hpp"
 #include "launcher/case/walls/space_walls.hpp"
+#include "launcher/case/walls/wall_motion.hpp"
 
 namespace turbidite {
 namespace {
@@ -64,7 +65,8 @@ ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& en
     result.yaml =
         resolved_text(settings, grains.size(),
                       {result.grains_csv, result.walls_csv, result.script, result.functions.text});
-    for (const auto& notes : {placed.start.notes, forms.notes, rule_notes(settings, entries)})
+    for (const auto& notes : {placed.start.notes, forms.notes, rule_notes(settings, entries),
+                              unfollowed_motions(settings, placed.walls, grains)})
         result.notes.insert(result.notes.end(), notes.begin(), notes.end());
     result.shapes = used_shapes(grains, forms);
     result.population = grain_states(grains, settings, result.scales);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/scene/plates.hpp"
@@ -358,6 +359,22 @@ CaseProblems check_motions(const Settings& settings, const std::vector<InnerWall
     }
     // It needs motions without faults.
     return problems.empty() ? check_balance(settings, entries) : problems;
+}
+
+std::vector<std::string> unfollowed_motions(const Settings& settings,
+                                            const std::vector<InnerWall>& walls,
+                                            const Packing& grains) {
+    std::set<std::string> followed;
+    for (const BoxSide& side : box_sides)
+        if (const std::string key = motion_key(side); settings.has(key))
+            followed.insert(settings.text(key));
+    for (const InnerWall& wall : walls) followed.insert(wall.motion);
+    for (const PlacedGrain& grain : grains) followed.insert(grain.motion);
+    std::vector<std::string> notes;
+    for (const std::string& name : motion_names(settings))
+        if (!followed.contains(name))
+            notes.push_back(fmt::format("no side, wall or grain follows domain.motions.{}", name));
+    return notes;
 }
 
 std::string inflows_setting(const Settings& settings, const Scales& scales) {

@@ -31,6 +31,11 @@ std::vector<std::string> motion_names(const Settings& settings);
 std::string grain_motions_setting(const Settings& settings, const Packing& grains,
                                   const Scales& scales);
 
+/// One note per motion that no side, wall or grain follows: its name is probably misspelt there.
+std::vector<std::string> unfollowed_motions(const Settings& settings,
+                                            const std::vector<InnerWall>& walls,
+                                            const Packing& grains);
+
 /// The value of `run.inflow_motions`, in run units.
 std::string inflows_setting(const Settings& settings, const Scales& scales);
 

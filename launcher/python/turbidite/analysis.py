@@ -13,7 +13,7 @@ CURVES = {
     'phases': ('analysis.phases', 'phases'),
     'pore_curve': ('analysis.pores', 'pore_curve'),
     'pore_pressure': ('analysis.pore_pressure', 'probes'),
-    'relaxation': ('relaxation', 'relaxation'),
+    'relaxation': ('analysis.relaxation', 'relaxation'),
     'rheology': ('analysis.rheology', 'cells'),
     'shear_band': ('analysis.shear_band', 'shear_band'),
     'snapshots': ('analysis.snapshots', 'snapshots'),

@@ -4,6 +4,8 @@
 // moving walls. All of it is in the resolved case, which reads back to the same.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {
@@ -145,6 +147,18 @@ TEST_F(MovingWalls, GrainsNameThem) {
     others.push_back("grains.adapter=external");
     others.push_back("grains.command=true");
     EXPECT_SAYS(refusal("", others), "no grain follows a motion of domain.motions");
+}
+
+TEST_F(MovingWalls, AMotionThatNothingFollowsIsNoted) {
+    folder.write("g.csv", "id,x,y,motion\n5,2,3,m\n6,4,3,free\n");
+    const auto told = [&](std::vector<std::string> set) {
+        set.push_back("domain.motions.m.kind=constant");
+        const auto notes = load("", set).notes;
+        return std::ranges::count(notes, "no side, wall or grain follows domain.motions.m");
+    };
+    EXPECT_EQ(told({}), 1);
+    EXPECT_EQ(told({"domain.right_motion=m"}), 0);
+    EXPECT_EQ(told({"grains.file=g.csv"}), 0);
 }
 
 TEST_F(MovingWalls, WhatMakesNoSenseIsRefused) {
