@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace turbidite {
 namespace {
 
 constexpr double rounding = 1e-9;  // relative, of lengths from a case
+
+// Far above what any mesh has: to count the rows of a box of 1e300 D would never end.
+constexpr int most_rows = 1'000'000;
 
 /// In units of h.
 struct Growth {
@@ -28,12 +32,12 @@ struct Growth {
         return total;
     }
 
-    /// The fewest rows that reach `room`.
+    /// The fewest rows that reach `room`; most_rows + 1 if there are more.
     int rows_to(double room) const {
         int rows = 0;
         double reached = 0.0, next = 1.0;
         // The rounding keeps a room that r fills exactly from getting one row more.
-        while (reached < room * (1.0 - rounding)) {
+        while (reached < room * (1.0 - rounding) && rows <= most_rows) {
             reached += next = std::min(next * ratio, largest);
             ++rows;
         }
@@ -80,11 +84,11 @@ std::optional<MeshRows> mesh_rows(const Settings& settings, double top) {
     rows.height = h;
     const double equal = std::ceil(settings.real("fluid.stretch_from") / h - rounding);
     const double room = top / h - equal;
-    if (!(room > 0.0)) return std::nullopt;
+    if (!(room > 0.0) || equal > most_rows) return std::nullopt;
     rows.equal = static_cast<int>(equal);
     const int count = most.rows_to(room);
     // Even rows of height h would be too high: n rows fit only if some were lower.
-    if (count > room * (1.0 + rounding)) return std::nullopt;
+    if (count > room * (1.0 + rounding) || count > most_rows) return std::nullopt;
     rows.ratio = fitted_ratio(most, count, room);
     rows.stretched = Growth{rows.ratio, most.largest}.heights(count);
     for (double& height : rows.stretched) height *= h;
@@ -93,11 +97,14 @@ std::optional<MeshRows> mesh_rows(const Settings& settings, double top) {
 
 double least_stretched_room(const Settings& settings) {
     const Growth most = growth_of(settings);
-    int rows = 1;
     // sum(n) >= n + 1: any larger room takes n + 1 rows or more, and is high enough for as many of
     // height h.
-    while (most.sum(rows) - rows < 1.0) ++rows;
-    return most.sum(rows) / settings.real("fluid.cells_per_diameter");
+    double sum = 0.0, next = 1.0;
+    for (int rows = 1; rows <= most_rows; ++rows) {
+        sum += next = std::min(next * most.ratio, most.largest);
+        if (sum - rows >= 1.0) return sum / settings.real("fluid.cells_per_diameter");
+    }
+    return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace turbidite

@@ -34,11 +34,12 @@ struct MeshRows {
 };
 
 /// The rows of a mesh whose height is `top` D. All of them are equal unless fluid.stretch_ratio is
-/// above 1; nothing if there is no room to grow above fluid.stretch_from.
+/// above 1; nothing if there is no room to grow above fluid.stretch_from, or for more than a
+/// million rows.
 std::optional<MeshRows> mesh_rows(const Settings& settings, double top);
 
 /// The least room above fluid.stretch_from in which rows can grow by fluid.stretch_ratio [D]: in
-/// any larger one no row has to be lower than h.
+/// any larger one no row has to be lower than h. Infinite for a ratio too near to 1.
 double least_stretched_room(const Settings& settings);
 
 /// Whether the settings ask for rows that are not equal.

@@ -136,6 +136,14 @@ Ruling rows_can_stretch(const Settings& s) {
                          "Set fluid.stretch_ratio: 1, or use walls or free sides."};
     if (mesh_rows(s, top)) return std::nullopt;
     const double room = least_stretched_room(s), highest = top - room;
+    if (std::isinf(room))
+        return Objection{fmt::format("Rows that grow by a ratio of {} are as good as equal.",
+                                     s.text("fluid.stretch_ratio")),
+                         "Set fluid.stretch_ratio: 1, or a larger ratio."};
+    if (highest >= s.real("fluid.stretch_from"))
+        return Objection{
+            fmt::format("A domain that ends at {} D has more rows than any mesh.", real_text(top)),
+            "Use a smaller domain.size."};
     if (!(highest > 0.0))
         return Objection{fmt::format("Rows need {:.3g} D to grow by a ratio of {}, and the domain "
                                      "is {} D high.",

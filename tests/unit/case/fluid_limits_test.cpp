@@ -97,6 +97,13 @@ TEST_F(FluidLimits, StretchedRowsNeedAHeightAndRoom) {
     EXPECT_EQ(with({"fluid.stretch_from=60"}), "");  // without effect
 }
 
+TEST_F(FluidLimits, AStretchedMeshBeyondAllMeasureIsRefused) {
+    // Found by a mutated case: its rows were counted one by one.
+    const std::string text = refusal(
+        "", {"domain.size=[60, 1e300]", "fluid.stretch_ratio=1.05", "fluid.stretch_from=24"});
+    EXPECT_SAYS(text, "has more rows than any mesh");
+}
+
 TEST_F(FluidLimits, AGrainInStretchedRowsIsRefusedByItsNumber) {
     folder.write("g.csv", "id,x,y\n4,3,3\n7,5,10.2\n");
     const std::vector<std::string> stretched = {"grains.file=g.csv", "fluid.stretch_ratio=1.05",

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 namespace turbidite {
@@ -75,6 +76,15 @@ TEST(MeshRows, NeedRoomToGrow) {
     EXPECT_FALSE(mesh_rows(settings, 9.2));
     for (const double more : {0.0, 0.01, 0.1, 1.0})
         EXPECT_TRUE(mesh_rows(settings, 9.0 + least + more)) << more;
+}
+
+TEST(MeshRows, OfAnyHeightAreCountedInTime) {
+    for (const double top : {1e8, 1e300}) {
+        EXPECT_FALSE(mesh_rows(stretched(24.0, 1.05, 16.0), top)) << top;
+        EXPECT_FALSE(mesh_rows(stretched(0.5 * top, 1.05, 16.0), top)) << top;
+    }
+    // The sum of n such rows is not a row more than n.
+    EXPECT_TRUE(std::isinf(least_stretched_room(stretched(5.0, 1.0 + 1e-15, 16.0))));
 }
 
 }  // namespace
