@@ -65,7 +65,7 @@ void our_turn(Contender& contender, const siconos::Problem& judge,
     const siconos::Stopped s =
         siconos::solve_to_measure(solver, problem, tolerance, most_iterations);
     take(contender, judge, processor_seconds() - start, s.iterations, s.converged,
-         siconos::flat(s.impulses, {}));
+         siconos::flat(s.impulses, judge.dimension()));
 }
 
 /// The contenders in turns, A B A B.

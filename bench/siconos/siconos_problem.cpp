@@ -10,6 +10,7 @@
 #include <SolverOptions.h>
 #include <SparseBlockMatrix.h>
 #include <fc2d_compute_error.h>
+#include <fc3d_compute_error.h>
 #undef restrict
 
 #include <stdlib.h>
@@ -21,7 +22,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "granular_adapter/nscd/problem/plane/problem_file.hpp"
+#include "granular_adapter/nscd/problem/problem_file.hpp"
 
 namespace turbidite::siconos {
 namespace {
@@ -63,19 +64,63 @@ FrictionContactProblem* read(const std::filesystem::path& file) {
     return problem;
 }
 
-int solver_id(const std::string& name) {
-    if (name == "nsgs") return SICONOS_FRICTION_2D_NSGS;
-    if (name == "cpg") return SICONOS_FRICTION_2D_CPG;
-    if (name == "lemke") return SICONOS_FRICTION_2D_LEMKE;
-    throw std::invalid_argument("no Siconos solver \"" + name + "\"");
+/// A solver of Siconos, and for Gauss-Seidel the solver of one contact; 0: its default.
+struct Entry {
+    int dimension;
+    std::string name;
+    int id;
+    int one_contact = 0;
+};
+
+const std::vector<Entry>& entries() {
+    static const std::vector<Entry> list = {
+        {2, "nsgs", SICONOS_FRICTION_2D_NSGS},
+        {2, "cpg", SICONOS_FRICTION_2D_CPG},
+        {2, "lemke", SICONOS_FRICTION_2D_LEMKE},
+        {3, "nsgs", SICONOS_FRICTION_3D_NSGS},
+        {3, "nsgs-newton", SICONOS_FRICTION_3D_NSGS, SICONOS_FRICTION_3D_ONECONTACT_NSN},
+        {3, "nsgs-projection", SICONOS_FRICTION_3D_NSGS,
+         SICONOS_FRICTION_3D_ONECONTACT_ProjectionOnCone},
+        {3, "nsgs-iterated-projection", SICONOS_FRICTION_3D_NSGS,
+         SICONOS_FRICTION_3D_ONECONTACT_ProjectionOnConeWithLocalIteration},
+        {3, "nsgs-quartic", SICONOS_FRICTION_3D_NSGS, SICONOS_FRICTION_3D_ONECONTACT_QUARTIC},
+        {3, "newton", SICONOS_FRICTION_3D_NSN_AC},
+        {3, "admm", SICONOS_FRICTION_3D_ADMM},
+    };
+    return list;
+}
+
+using Options = std::unique_ptr<SolverOptions, void (*)(SolverOptions*)>;
+
+Options options_of(const std::string& solver, int dimension) {
+    for (const Entry& entry : entries()) {
+        if (entry.name != solver || entry.dimension != dimension) continue;
+        Options options(solver_options_create(entry.id), solver_options_delete);
+        if (entry.one_contact != 0)
+            solver_options_update_internal(options.get(), 0, entry.one_contact);
+        return options;
+    }
+    throw std::invalid_argument("no Siconos solver \"" + solver + "\" in dimension " +
+                                std::to_string(dimension));
+}
+
+void multiply(nscd::PlanarTensor& m, double factor) {
+    for (double* entry : {&m.xx, &m.yy, &m.ss, &m.xy, &m.xs, &m.ys}) *entry *= factor;
+}
+
+void multiply(nscd::SpaceMobility& m, double factor) {
+    m.linear *= factor, m.angular *= factor;
 }
 
 }  // namespace
 
 nscd::ContactProblem dimensionless(const nscd::ContactProblem& problem, const Scale& scale) {
     nscd::ContactProblem result = problem;
-    for (nscd::PlanarTensor& m : std::get<std::vector<nscd::PlanarTensor>>(result.bodies))
-        for (double* entry : {&m.xx, &m.yy, &m.ss, &m.xy, &m.xs, &m.ys}) *entry *= scale.mass;
+    std::visit(
+        [&](auto& bodies) {
+            for (auto& m : bodies) multiply(m, scale.mass);
+        },
+        result.bodies);
     const auto shrink = [&](Vec3& v) {
         for (double& x : v) x /= scale.speed;
     };
@@ -93,8 +138,14 @@ Problem::Problem(const std::filesystem::path& file)
 
 Problem::~Problem() = default;
 
+int Problem::dimension() const {
+    return problem_->dimension;
+}
 int Problem::contacts() const {
     return problem_->numberOfContacts;
+}
+std::size_t Problem::size() const {
+    return static_cast<std::size_t>(dimension()) * static_cast<std::size_t>(contacts());
 }
 const double* Problem::q() const {
     return problem_->q;
@@ -104,33 +155,33 @@ const double* Problem::friction() const {
 }
 
 double Problem::error(std::vector<double> impulses, std::vector<double>* velocities) const {
-    const std::size_t n = impulses.size();
-    std::vector<double> u(n);
+    std::vector<double> u(size());
     double error = 0.0;
-    fc2d_compute_error(problem_.get(), impulses.data(), u.data(), 0.0, norm(problem_->q, n),
-                       &error);
+    const double size_q = norm(problem_->q, size());
+    if (dimension() == 2)
+        fc2d_compute_error(problem_.get(), impulses.data(), u.data(), 0.0, size_q, &error);
+    else
+        fc3d_compute_error(problem_.get(), impulses.data(), u.data(), 0.0, nullptr, size_q, &error);
     if (velocities) *velocities = std::move(u);
     return error;
 }
 
 std::vector<double> Problem::dense_matrix() const {
-    const auto n = static_cast<std::size_t>(2 * contacts());
-    std::vector<double> matrix(n * n);
+    std::vector<double> matrix(size() * size());
     SBM_to_dense(problem_->M->matrix1, matrix.data());
     return matrix;
 }
 
 Solution Problem::solve(const std::string& solver, double tolerance, int most_iterations) const {
-    const std::unique_ptr<SolverOptions, void (*)(SolverOptions*)> options(
-        solver_options_create(solver_id(solver)), solver_options_delete);
+    const Options options = options_of(solver, dimension());
     options->dparam[SICONOS_DPARAM_TOL] = tolerance;
     options->iparam[SICONOS_IPARAM_MAX_ITER] = most_iterations;
     Solution solution;
-    solution.impulses.assign(2 * static_cast<std::size_t>(contacts()), 0.0);
+    solution.impulses.assign(size(), 0.0);
     solution.velocities = solution.impulses;
     const auto start = std::chrono::steady_clock::now();
-    const int info = fc2d_driver(problem_.get(), solution.impulses.data(),
-                                 solution.velocities.data(), options.get());
+    const int info = (dimension() == 2 ? fc2d_driver : fc3d_driver)(
+        problem_.get(), solution.impulses.data(), solution.velocities.data(), options.get());
     solution.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     solution.iterations = options->iparam[SICONOS_IPARAM_ITER_DONE];
@@ -138,18 +189,29 @@ Solution Problem::solve(const std::string& solver, double tolerance, int most_it
     return solution;
 }
 
-std::vector<double> flat(const nscd::Impulses& impulses, const Scale& scale) {
+std::vector<std::string> solver_names(int dimension) {
+    std::vector<std::string> names;
+    for (const Entry& entry : entries())
+        if (entry.dimension == dimension) names.push_back(entry.name);
+    return names;
+}
+
+std::vector<double> flat(const nscd::Impulses& impulses, int dimension) {
     std::vector<double> result;
-    for (const nscd::ContactVector& r : impulses)
-        for (const double x : {r.n, r.t}) result.push_back(x / (scale.mass * scale.speed));
+    for (const nscd::ContactVector& r : impulses) {
+        result.insert(result.end(), {r.n, r.t});
+        if (dimension == 3) result.push_back(r.s);
+    }
     return result;
 }
 
-nscd::Impulses impulses_of(const std::vector<double>& flat, const Scale& scale) {
-    nscd::Impulses result(flat.size() / 2);
-    const double unit = scale.mass * scale.speed;
-    for (std::size_t k = 0; k < result.size(); ++k)
-        result[k] = nscd::in_plane(flat[2 * k] * unit, flat[2 * k + 1] * unit);
+nscd::Impulses impulses_of(const std::vector<double>& flat, int dimension) {
+    const auto d = static_cast<std::size_t>(dimension);
+    nscd::Impulses result(flat.size() / d);
+    for (std::size_t k = 0; k < result.size(); ++k) {
+        const double* r = &flat[d * k];
+        result[k] = {r[0], r[1], d == 3 ? r[2] : 0.0, 0.0};
+    }
     return result;
 }
 
