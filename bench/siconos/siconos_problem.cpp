@@ -64,6 +64,25 @@ FrictionContactProblem* read(const std::filesystem::path& file) {
     return problem;
 }
 
+/// Memory that Siconos will free.
+double* given_away(const std::vector<double>& values) {
+    auto* copy = static_cast<double*>(std::malloc(values.size() * sizeof(double)));
+    std::copy(values.begin(), values.end(), copy);
+    return copy;
+}
+
+FrictionContactProblem* made_of(const LocalProblem& problem) {
+    const auto n = static_cast<int>(problem.q.size());
+    NumericsMatrix* w = NM_create(NM_SPARSE, n, n);
+    NM_triplet_alloc(w, static_cast<CS_INT>(problem.value.size()));
+    for (int j = 0; j < n; ++j)
+        for (int e = problem.column_start[j]; e < problem.column_start[j + 1]; ++e)
+            NM_entry(w, problem.row[e], j, problem.value[e]);
+    return frictionContactProblem_new_with_data(problem.dimension, n / problem.dimension, w,
+                                                given_away(problem.q),
+                                                given_away(problem.friction));
+}
+
 /// A solver of Siconos, and for Gauss-Seidel the solver of one contact; 0: its default.
 struct Entry {
     int dimension;
@@ -136,6 +155,9 @@ Problem::Problem(const nscd::ContactProblem& problem, const Scale& scale)
 Problem::Problem(const std::filesystem::path& file)
     : problem_(read(file), frictionContactProblem_free) {}
 
+Problem::Problem(const LocalProblem& problem)
+    : problem_(made_of(problem), frictionContactProblem_free) {}
+
 Problem::~Problem() = default;
 
 int Problem::dimension() const {
@@ -164,6 +186,31 @@ double Problem::error(std::vector<double> impulses, std::vector<double>* velocit
         fc3d_compute_error(problem_.get(), impulses.data(), u.data(), 0.0, nullptr, size_q, &error);
     if (velocities) *velocities = std::move(u);
     return error;
+}
+
+LocalProblem Problem::local() const {
+    if (problem_->M->storageType != NM_SPARSE_BLOCK)
+        throw std::logic_error("only problems read from text files are given out");
+    const SparseBlockStructuredMatrix& w = *problem_->M->matrix1;
+    const auto d = static_cast<std::size_t>(dimension());
+    // By column, in the order of the rows.
+    std::vector<std::vector<std::pair<int, double>>> columns(size());
+    for (std::size_t k = 0; k + 1 < w.filled1; ++k)
+        for (std::size_t e = w.index1_data[k]; e < w.index1_data[k + 1]; ++e)
+            for (std::size_t entry = 0; entry < d * d; ++entry)
+                columns[d * w.index2_data[e] + entry / d].emplace_back(d * k + entry % d,
+                                                                       w.block[e][entry]);
+    LocalProblem problem;
+    problem.dimension = dimension();
+    problem.column_start.push_back(0);
+    for (const auto& column : columns) {
+        for (const auto& [row, value] : column)
+            problem.row.push_back(row), problem.value.push_back(value);
+        problem.column_start.push_back(static_cast<int>(problem.row.size()));
+    }
+    problem.q.assign(q(), q() + size());
+    problem.friction.assign(friction(), friction() + contacts());
+    return problem;
 }
 
 std::vector<double> Problem::dense_matrix() const {

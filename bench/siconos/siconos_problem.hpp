@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/siconos/local_problem.hpp"
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
 
 struct FrictionContactProblem;
@@ -41,6 +42,7 @@ class Problem {
     Problem(const nscd::ContactProblem& problem, const Scale& scale);
     /// Reads a problem from a file of Siconos.
     explicit Problem(const std::filesystem::path& file);
+    explicit Problem(const LocalProblem& problem);
     ~Problem();
     Problem(const Problem&) = delete;
     Problem& operator=(const Problem&) = delete;
@@ -54,6 +56,8 @@ class Problem {
     /// + q in `velocities` if given.
     double error(std::vector<double> impulses, std::vector<double>* velocities = nullptr) const;
 
+    /// W with all entries of its blocks, zeros too. Of problems read from text files.
+    LocalProblem local() const;
     /// W as size() columns of size() entries; for small problems.
     std::vector<double> dense_matrix() const;
     const double* q() const;         ///< H^T v_free + b, size() values

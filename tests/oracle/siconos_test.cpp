@@ -78,7 +78,7 @@ TEST(SiconosMeasure, IsWhatWeTakeItFor) {
 
 // Each solution passes the other code's measure, and the contact velocities agree.
 TEST(Columns, HaveTheVelocitiesOfSiconosWithEverySolver) {
-    for (const Named& named : problems_of_columns()) judge_each_other(named);
+    for (const Named& named : problems_of_columns()) judge_each_other(named, {});
 }
 
 // One contact per body, so that W is regular: impulses and statuses are unique.

@@ -23,13 +23,13 @@ nscd::Engine column(const bench::SphereColumn& spheres) {
     return bench::dense_spheres(spheres, settings);
 }
 
-/// A few hundred spheres in mid-collapse. Times at which sweeps of both codes converge: the dense
-/// column at 2 t_c, for one, stalls both, ours at 2e-5 and theirs at 1e-6 after 1e5 sweeps.
+/// A few hundred spheres in mid-collapse. Denser columns, such as shrink = 0.01, take both codes
+/// 1e5 sweeps.
 const std::vector<Named>& problems_of_spheres() {
     static const std::vector<Named> list = [] {
         constexpr double step = 0.01;
         std::vector<Named> all;
-        take_problems("dense", column({.width = 4.5, .shrink = 0.01}), step, {1.5, 4.0}, all);
+        take_problems("dense", column({.width = 4.5, .shrink = 0.03}), step, {2.0, 4.0}, all);
         take_problems("loose", column({.width = 5.5, .shrink = 0.2, .agitation = 0.5}), step,
                       {2.0, 4.0}, all);
         return all;
@@ -99,9 +99,13 @@ TEST(SiconosMeasure, OfSpheresIsWhatWeTakeItFor) {
     }
 }
 
+// The error of velocities is up to a hundred times that of impulses: with Siconos at 1e-9 it falls
+// in proportion to our tolerance, to 1e-5 at 1e-6 (dense columns) and below 1e-6 at 1e-7.
+constexpr Tolerances tight{.ours = 1e-7, .theirs = 1e-9};
+
 TEST(Spheres, HaveTheVelocitiesOfSiconos) {
     for (const Named& named : problems_of_spheres()) {
-        const StatusCount seen = statuses(named.problem, judge_each_other(named));
+        const StatusCount seen = statuses(named.problem, judge_each_other(named, tight));
         for (const Status s : {open, sticking, sliding}) EXPECT_GT(seen[s], 100) << named.name;
     }
 }
