@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// turbidite-bench-siconos: Siconos' NSGS and our solvers on the same contact problems, the dry
-// column at several times. All start from zero impulses and stop at the same error measure; at the
-// end Siconos' own function evaluates all answers.
+// turbidite-bench-siconos: solvers of Siconos and ours on the same contact problems, a column of
+// discs or of spheres at several times. All start from zero impulses and stop at the same error
+// measure; at the end Siconos' own function evaluates all answers.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "bench/contact/dense_packing.hpp"
 #include "bench/siconos/dry_column.hpp"
 #include "bench/siconos/same_measure.hpp"
 #include "bench/siconos/siconos_problem.hpp"
@@ -22,6 +23,9 @@ constexpr int most_iterations = 200000;
 
 struct Options {
     DryColumn column;
+    bool in_space = false;
+    double shrink = 1e-3;  // of spheres
+    std::vector<std::string> siconos = {"nsgs"};
     std::vector<double> times = {2.0, 9.0, 14.0};  // [t_c]
     double tolerance = 1e-4;
     std::vector<std::string> solvers = {"nlgs"};
@@ -52,10 +56,48 @@ void take(Contender& contender, const siconos::Problem& judge, double seconds,
     contender.error = judge.error(impulses);
 }
 
-void siconos_turn(Contender& contender, const siconos::Problem& judge, double tolerance) {
+/// One of Siconos' solvers.
+struct Rival {
+    std::string solver;
+    double tolerance;
+    int iterations;
+    Contender contender = {};
+};
+
+siconos::Solution solved(const siconos::Problem& judge, const Rival& rival, int iterations) {
+    return judge.solve(rival.solver, rival.tolerance, iterations);
+}
+
+/// Whether this many iterations are enough for the measure.
+bool reaches(const siconos::Problem& judge, const Rival& rival, int iterations, double error) {
+    return judge.error(solved(judge, rival, iterations).impulses) <= error;
+}
+
+/// In space Siconos' Gauss-Seidel stops by the change of a sweep, at errors far below the required
+/// one. It is therefore told beforehand how many sweeps it needs: the fewest, by bisection.
+Rival told(const siconos::Problem& judge, const std::string& solver, double tolerance) {
+    Rival rival{solver, 1e-2 * tolerance, 1};
+    const auto enough = [&](int n) { return reaches(judge, rival, n, tolerance); };
+    while (rival.iterations < most_iterations && !enough(rival.iterations)) rival.iterations *= 2;
+    for (int few = rival.iterations / 2; rival.iterations - few > 1;) {
+        const int middle = (few + rival.iterations) / 2;
+        (enough(middle) ? rival.iterations : few) = middle;
+    }
+    return rival;
+}
+
+Rival rival_of(const siconos::Problem& judge, const std::string& solver, double tolerance) {
+    return judge.dimension() == 3 ? told(judge, solver, tolerance)
+                                  : Rival{solver, tolerance, most_iterations};
+}
+
+void siconos_turn(Rival& rival, const siconos::Problem& judge, double tolerance) {
     const double start = processor_seconds();
-    const siconos::Solution s = judge.solve("nsgs", tolerance, most_iterations);
-    take(contender, judge, processor_seconds() - start, s.iterations, s.converged, s.impulses);
+    const siconos::Solution s = solved(judge, rival, rival.iterations);
+    const double seconds = processor_seconds() - start;
+    const bool converged =
+        judge.dimension() == 3 ? judge.error(s.impulses) <= tolerance : s.converged;
+    take(rival.contender, judge, seconds, s.iterations, converged, s.impulses);
 }
 
 void our_turn(Contender& contender, const siconos::Problem& judge,
@@ -71,22 +113,32 @@ void our_turn(Contender& contender, const siconos::Problem& judge,
 /// The contenders in turns, A B A B.
 nlohmann::ordered_json duel(const nscd::ContactProblem& problem, const Options& options) {
     const siconos::Problem judge(problem, {});
-    Contender siconos;
+    std::vector<Rival> rivals;
+    for (const std::string& solver : options.siconos)
+        rivals.push_back(rival_of(judge, solver, options.tolerance));
     std::vector<Contender> ours(options.solvers.size());
     for (int turn = 0; turn < options.repeats; ++turn) {
-        siconos_turn(siconos, judge, options.tolerance);
+        for (Rival& rival : rivals) siconos_turn(rival, judge, options.tolerance);
         for (std::size_t i = 0; i < ours.size(); ++i)
             our_turn(ours[i], judge, *nscd::make_solver(options.solvers[i]), problem,
                      options.tolerance);
     }
-    nlohmann::ordered_json json = {{"contacts", problem.contacts.size()},
-                                   {"siconos-nsgs", siconos.json()}};
+    nlohmann::ordered_json json = {{"contacts", problem.contacts.size()}};
+    for (const Rival& rival : rivals) json["siconos-" + rival.solver] = rival.contender.json();
     for (std::size_t i = 0; i < ours.size(); ++i) json[options.solvers[i]] = ours[i].json();
     return json;
 }
 
+nscd::Engine column(const Options& options) {
+    if (!options.in_space) return dry_column(options.column);
+    nscd::SolverSettings settings;
+    settings.tolerance = options.column.tolerance;
+    settings.max_iterations = 5000;
+    return dense_spheres({.width = options.column.width, .shrink = options.shrink}, settings);
+}
+
 nlohmann::ordered_json run(const Options& options) {
-    nscd::Engine engine = dry_column(options.column);
+    nscd::Engine engine = column(options);
     const double mass = engine.bodies().mass.front();
     // Masses are scaled by that of a grain, velocities by h g.
     const siconos::Scale scale{mass, options.column.step};
@@ -96,7 +148,7 @@ nlohmann::ordered_json run(const Options& options) {
         play(engine, time - now, options.column.step);
         now = time;
         // The original column is not advanced by this.
-        nscd::Engine probe = dry_column(options.column);
+        nscd::Engine probe = column(options);
         probe.restore(engine.save());
         probe.step(options.column.step);
         json.push_back(duel(siconos::dimensionless(probe.problem(), scale), options));
@@ -110,7 +162,10 @@ nlohmann::ordered_json run(const Options& options) {
 
 int main(int argc, char** argv) {
     turbidite::bench::Options options;
-    CLI::App app{"Siconos' NSGS against ours on the dry column", "turbidite-bench-siconos"};
+    CLI::App app{"Siconos' solvers against ours on a column", "turbidite-bench-siconos"};
+    app.add_flag("--spheres", options.in_space, "a column of spheres, twice as high as wide");
+    app.add_option("--shrink", options.shrink, "their radii are in [1 - shrink, 1] D/2");
+    app.add_option("--siconos", options.siconos, "solvers of Siconos, by name");
     app.add_option("--width", options.column.width, "of the column [D]");
     app.add_option("--height", options.column.height, "of the column [D]");
     app.add_option("--compacity", options.column.compacity, "of its lattice");
