@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bench/contact/dense_packing.hpp"
@@ -30,7 +31,11 @@ struct Options {
     double tolerance = 1e-4;
     std::vector<std::string> solvers = {"nlgs"};
     int repeats = 5;
+    std::string told = "neither";
     std::string result;
+
+    bool siconos_is_told() const { return told != "neither"; }
+    bool ours_are_told() const { return told == "both"; }
 };
 
 /// Times of one contender, and its error by Siconos' function.
@@ -56,58 +61,88 @@ void take(Contender& contender, const siconos::Problem& judge, double seconds,
     contender.error = judge.error(impulses);
 }
 
-/// One of Siconos' solvers.
+/// The fewest iterations that are enough, by bisection; `most_iterations` or more if none are.
+template <class Enough>
+int fewest(const Enough& enough) {
+    int many = 1;
+    while (many < most_iterations && !enough(many)) many *= 2;
+    for (int few = many / 2; many - few > 1;) {
+        const int middle = (few + many) / 2;
+        (enough(middle) ? many : few) = middle;
+    }
+    return many;
+}
+
+/// One of Siconos' solvers. Told how many iterations it needs, it does not stop before.
 struct Rival {
     std::string solver;
     double tolerance;
-    int iterations;
+    int iterations = most_iterations;
     Contender contender = {};
+
+    siconos::Solution solve(const siconos::Problem& judge) const {
+        return judge.solve(solver, tolerance, iterations);
+    }
 };
 
-siconos::Solution solved(const siconos::Problem& judge, const Rival& rival, int iterations) {
-    return judge.solve(rival.solver, rival.tolerance, iterations);
-}
-
-/// Whether this many iterations are enough for the measure.
-bool reaches(const siconos::Problem& judge, const Rival& rival, int iterations, double error) {
-    return judge.error(solved(judge, rival, iterations).impulses) <= error;
-}
-
-/// In space Siconos' Gauss-Seidel stops by the change of a sweep, at errors far below the required
-/// one. It is therefore told beforehand how many sweeps it needs: the fewest, by bisection.
-Rival told(const siconos::Problem& judge, const std::string& solver, double tolerance) {
-    Rival rival{solver, 1e-2 * tolerance, 1};
-    const auto enough = [&](int n) { return reaches(judge, rival, n, tolerance); };
-    while (rival.iterations < most_iterations && !enough(rival.iterations)) rival.iterations *= 2;
-    for (int few = rival.iterations / 2; rival.iterations - few > 1;) {
-        const int middle = (few + rival.iterations) / 2;
-        (enough(middle) ? rival.iterations : few) = middle;
-    }
+Rival rival_of(const siconos::Problem& judge, const std::string& solver, const Options& options) {
+    if (!options.siconos_is_told()) return {solver, options.tolerance};
+    Rival rival{solver, 1e-2 * options.tolerance};
+    rival.iterations = fewest([&](int n) {
+        const Rival trial{solver, rival.tolerance, n};
+        return judge.error(trial.solve(judge).impulses) <= options.tolerance;
+    });
     return rival;
 }
 
-Rival rival_of(const siconos::Problem& judge, const std::string& solver, double tolerance) {
-    return judge.dimension() == 3 ? told(judge, solver, tolerance)
-                                  : Rival{solver, tolerance, most_iterations};
-}
-
-void siconos_turn(Rival& rival, const siconos::Problem& judge, double tolerance) {
+void siconos_turn(Rival& rival, const siconos::Problem& judge, const Options& options) {
     const double start = processor_seconds();
-    const siconos::Solution s = solved(judge, rival, rival.iterations);
+    const siconos::Solution s = rival.solve(judge);
     const double seconds = processor_seconds() - start;
-    const bool converged =
-        judge.dimension() == 3 ? judge.error(s.impulses) <= tolerance : s.converged;
-    take(rival.contender, judge, seconds, s.iterations, converged, s.impulses);
+    const bool reached = judge.error(s.impulses) <= options.tolerance;
+    take(rival.contender, judge, seconds, s.iterations,
+         options.siconos_is_told() ? reached : s.converged, s.impulses);
 }
 
-void our_turn(Contender& contender, const siconos::Problem& judge,
-              const nscd::ContactSolver& solver, const nscd::ContactProblem& problem,
-              double tolerance) {
+/// One of our solvers, likewise.
+struct Own {
+    std::unique_ptr<const nscd::ContactSolver> solver;
+    int iterations = most_iterations;
+    Contender contender = {};
+
+    siconos::Stopped sweep(const nscd::ContactProblem& problem) const {
+        nscd::SolverSettings settings;
+        settings.tolerance = 1e-12;
+        settings.max_iterations = iterations;
+        nscd::SolverResult found =
+            solver->solve(problem, nscd::Impulses(problem.contacts.size()), settings);
+        return {std::move(found.impulses), found.iterations, 0.0, true};
+    }
+};
+
+Own own_of(const nscd::ContactProblem& problem, const std::string& solver, const Options& options) {
+    Own own{nscd::make_solver(solver)};
+    if (options.ours_are_told())
+        own.iterations = fewest([&](int n) {
+            own.iterations = n;
+            return siconos::error_measure(problem, own.sweep(problem).impulses) <=
+                   options.tolerance;
+        });
+    return own;
+}
+
+void our_turn(Own& own, const siconos::Problem& judge, const nscd::ContactProblem& problem,
+              const Options& options) {
     const double start = processor_seconds();
     const siconos::Stopped s =
-        siconos::solve_to_measure(solver, problem, tolerance, most_iterations);
-    take(contender, judge, processor_seconds() - start, s.iterations, s.converged,
-         siconos::flat(s.impulses, judge.dimension()));
+        options.ours_are_told()
+            ? own.sweep(problem)
+            : siconos::solve_to_measure(*own.solver, problem, options.tolerance, most_iterations);
+    const double seconds = processor_seconds() - start;
+    const std::vector<double> impulses = siconos::flat(s.impulses, judge.dimension());
+    // By Siconos' function, which agrees with our measure to rounding.
+    const bool reached = judge.error(impulses) <= options.tolerance * (1.0 + 1e-9);
+    take(own.contender, judge, seconds, s.iterations, s.converged && reached, impulses);
 }
 
 /// The contenders in turns, A B A B.
@@ -115,17 +150,18 @@ nlohmann::ordered_json duel(const nscd::ContactProblem& problem, const Options& 
     const siconos::Problem judge(problem, {});
     std::vector<Rival> rivals;
     for (const std::string& solver : options.siconos)
-        rivals.push_back(rival_of(judge, solver, options.tolerance));
-    std::vector<Contender> ours(options.solvers.size());
+        rivals.push_back(rival_of(judge, solver, options));
+    std::vector<Own> ours;
+    for (const std::string& solver : options.solvers)
+        ours.push_back(own_of(problem, solver, options));
     for (int turn = 0; turn < options.repeats; ++turn) {
-        for (Rival& rival : rivals) siconos_turn(rival, judge, options.tolerance);
-        for (std::size_t i = 0; i < ours.size(); ++i)
-            our_turn(ours[i], judge, *nscd::make_solver(options.solvers[i]), problem,
-                     options.tolerance);
+        for (Rival& rival : rivals) siconos_turn(rival, judge, options);
+        for (Own& own : ours) our_turn(own, judge, problem, options);
     }
     nlohmann::ordered_json json = {{"contacts", problem.contacts.size()}};
     for (const Rival& rival : rivals) json["siconos-" + rival.solver] = rival.contender.json();
-    for (std::size_t i = 0; i < ours.size(); ++i) json[options.solvers[i]] = ours[i].json();
+    for (std::size_t i = 0; i < ours.size(); ++i)
+        json[options.solvers[i]] = ours[i].contender.json();
     return json;
 }
 
@@ -173,6 +209,10 @@ int main(int argc, char** argv) {
     app.add_option("--tolerance", options.tolerance, "of Siconos' error measure");
     app.add_option("--solvers", options.solvers, "ours, by name");
     app.add_option("--repeats", options.repeats, "turns of each contender");
+    app.add_option("--told", options.told,
+                   "who is told beforehand how many iterations reach the error, the fewest; the "
+                   "others stop by their own measures")
+        ->check(CLI::IsMember({"neither", "siconos", "both"}));
     app.add_option("--result", options.result, "JSON file to write")->required();
     CLI11_PARSE(app, argc, argv);
     try {

@@ -12,9 +12,9 @@ namespace turbidite::bench {
 /// software was built.
 Measured siconos_over_ours(Site& site);
 
-/// The same for spheres: time of Siconos' fastest solver for friction in space, of Gauss-Seidel
-/// with three solvers of one contact, over that of `nlgs`; over a column of 544 spheres at 1, 3 and
-/// 6 t_c.
+/// The same for spheres: time of the fastest of Siconos' Gauss-Seidel solvers for friction in space
+/// over that of `nlgs`, both told how many sweeps reach the error; geometric mean over a column of
+/// 544 spheres at 1, 3 and 6 t_c.
 Measured spheres_over_siconos(Site& site);
 
 }  // namespace turbidite::bench

@@ -83,12 +83,14 @@ FrictionContactProblem* made_of(const LocalProblem& problem) {
                                                 given_away(problem.friction));
 }
 
-/// A solver of Siconos, and for Gauss-Seidel the solver of one contact; 0: its default.
+/// A solver of Siconos, and for Gauss-Seidel the solver of one contact, 0: its default, and the
+/// number of sweeps that leave out a contact without impulse.
 struct Entry {
     int dimension;
     std::string name;
     int id;
     int one_contact = 0;
+    int frozen = 0;
 };
 
 const std::vector<Entry>& entries() {
@@ -98,6 +100,7 @@ const std::vector<Entry>& entries() {
         {2, "lemke", SICONOS_FRICTION_2D_LEMKE},
         {3, "nsgs", SICONOS_FRICTION_3D_NSGS},
         {3, "nsgs-newton", SICONOS_FRICTION_3D_NSGS, SICONOS_FRICTION_3D_ONECONTACT_NSN},
+        {3, "nsgs-newton-frozen", SICONOS_FRICTION_3D_NSGS, SICONOS_FRICTION_3D_ONECONTACT_NSN, 10},
         {3, "nsgs-projection", SICONOS_FRICTION_3D_NSGS,
          SICONOS_FRICTION_3D_ONECONTACT_ProjectionOnCone},
         {3, "nsgs-iterated-projection", SICONOS_FRICTION_3D_NSGS,
@@ -117,6 +120,8 @@ Options options_of(const std::string& solver, int dimension) {
         Options options(solver_options_create(entry.id), solver_options_delete);
         if (entry.one_contact != 0)
             solver_options_update_internal(options.get(), 0, entry.one_contact);
+        if (entry.frozen != 0)
+            options->iparam[SICONOS_FRICTION_3D_NSGS_FREEZING_CONTACT] = entry.frozen;
         return options;
     }
     throw std::invalid_argument("no Siconos solver \"" + solver + "\" in dimension " +
