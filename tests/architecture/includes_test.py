@@ -89,12 +89,13 @@ PLANE_DOORS = {
     "problem/mobilities.hpp": "lists the kinds of mobility that a problem may have",
     "problem/mobilities.cpp": "makes the mobilities of dry bodies",
     "problem/residual.cpp": "measures a problem with the operator of its kind",
+    "problem/problem_file.cpp": "writes a problem with the assembled operator of its kind",
     "solvers/nlgs.cpp": "solves a problem with the rows of its kind",
     "detection/narrow_phase.hpp": "holds the shapes that have corners",
     "detection/narrow_phase.cpp": "lists the detectors of all pairs of shapes, and what walls may do",
 }
 SPACE_DOORS = {name: PLANE_DOORS[name] for name in (
-    "problem/mobilities.hpp", "problem/mobilities.cpp", "problem/residual.cpp", "solvers/nlgs.cpp",
+    "problem/mobilities.hpp", "problem/mobilities.cpp", "problem/problem_file.cpp", "problem/residual.cpp", "solvers/nlgs.cpp",
     "detection/narrow_phase.cpp")}
 SPACE_DOORS["detection/narrow_phase.hpp"] = "holds the rims that round walls share"
 PLANE_HEADER = re.compile(r'^\s*#\s*include\s*"granular_adapter/nscd/\w+/plane/', re.MULTILINE)
