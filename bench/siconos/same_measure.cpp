@@ -4,25 +4,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "granular_adapter/nscd/problem/plane/one_contact.hpp"
+#include "granular_adapter/nscd/problem/space/one_contact.hpp"
 
 namespace turbidite::siconos {
 
-using nscd::Plane;
-
+// The cone of space contains that of the plane: s = 0 there.
 double error_measure(const nscd::ContactProblem& problem, const nscd::Impulses& impulses) {
     const std::vector<Twist> v = nscd::body_velocities(problem, impulses);
     double error = 0.0, size_q = 0.0, size_r = 0.0, size_u = 0.0;
-    const auto squared = [](const Plane& x) { return x[0] * x[0] + x[1] * x[1]; };
+    const auto squared = [](const nscd::ContactVector& x) {
+        return x.n * x.n + x.t * x.t + x.s * x.s;
+    };
     for (std::size_t k = 0; k < impulses.size(); ++k) {
         const nscd::Contact& contact = problem.contacts[k];
-        const auto biased = [&](const nscd::ContactVector& u) {
-            return Plane{u.n + contact.bias.n, u.t + contact.bias.t};
-        };
-        const Plane u = biased(nscd::contact_velocity(contact, v));
-        const Plane r{impulses[k].n, impulses[k].t};
+        const nscd::ContactVector& r = impulses[k];
+        const nscd::ContactVector u = nscd::contact_velocity(contact, v) + contact.bias;
         error += squared(nscd::natural_map(r, u, contact.friction, 1.0));
-        size_q += squared(biased(nscd::contact_velocity(contact, problem.free)));
+        size_q += squared(nscd::contact_velocity(contact, problem.free) + contact.bias);
         size_r += squared(r);
         size_u += squared(u);
     }

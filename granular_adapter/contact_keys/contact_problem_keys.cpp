@@ -93,7 +93,7 @@ KeyGroup contact_problem_keys() {
                  .need = Need::optional,
                  .range = positive,
                  .help = "interval at which contact problems are written to "
-                         "contacts/problem_STEP.dat, for Siconos",
+                         "contacts/problem_STEP.dat, for Siconos and FCLIB",
                  .contacts = Contacts::rigid},
             },
         .rules = {{"contact.dump_interval", {"contact.rolling_friction"}, dumps_know_rolling}},

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "granular_adapter/nscd/problem/plane/problem_file.hpp"
+#include "granular_adapter/nscd/problem/problem_file.hpp"
 
 namespace turbidite {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // contact.dump_interval: writes contact problems of a run to RUN/contacts/problem_STEP.dat
-// (nscd/problem/plane/problem_file.hpp), with STEP as in history.csv. Steps without contacts write
+// (nscd/problem/problem_file.hpp), with STEP as in history.csv. Steps without contacts write
 // no file.
 //
 // Reads: contact.dump_interval, time.step (both in t_c).

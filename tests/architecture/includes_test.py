@@ -18,7 +18,8 @@ PYTHON = r"^(Python\.h|pyconfig\.h|boost/python.*|pybind11/.*)$"
 YADE = r"^(yade/.*|core/.*|lib/.*|pkg/.*|granular_adapter/yade/.*)$"
 LAMMPS = r"^(lammps/.*|granular_adapter/lammps/.*)$"
 OPENFOAM = r"^([A-Za-z]*\.H|fluid_adapter/foam_.*)$"
-SICONOS = r"^(siconos/.*|FrictionContactProblem\.h|bench/siconos/siconos_problem\.hpp)$"
+SICONOS = (r"^(siconos/.*|(Friction|fc[23]d_|Numerics|NonSmooth|SolverOptions|SparseBlock)\w*\.h|fclib\.h|"
+           r"bench/siconos/(siconos_problem|fclib_file)\.hpp)$")
 PROJECT = r"^(coupler|fluid_adapter|granular_adapter|launcher|bench/(?!array_code/))/?.*$"
 LAUNCHER = r"^launcher/.*$"
 BENCH = r"^bench/.*$"
@@ -42,7 +43,9 @@ RULES = [
     ("granular_adapter/nscd/**/*.[hc]pp", [MPI, TRANSPORT, YADE, PYTHON, OPENFOAM], "the contact engine knows no host"),
     ("granular_adapter/nscd_ranks/*.[hc]pp", [TRANSPORT, YADE, LAMMPS, PYTHON], "ranks exchange bytes, whatever the host"),
     ("granular_adapter/nscd_adapter/*.[hc]pp", [MPI], "the engine's adapter knows ranks, and no MPI"),
-    ("granular_adapter/*/*.[hc]pp", [SICONOS], "Siconos stays in tests and one contender"),
+    *[(files, [SICONOS], "Siconos and FCLIB stay in tests and bench/siconos")
+      for files in ("granular_adapter/**/*.[hc]pp", "coupler/**/*.[hc]pp", "launcher/**/*.[hc]pp", "fluid_adapter/**/*.[hc]pp",
+                    "bench/[!s]*/*.[hc]pp")],
     ("fluid_adapter/multiplier/**/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "the multiplier method knows no host"),
     ("fluid_adapter/box_step/**/*.[hc]pp", [MPI, TRANSPORT, EIGEN, OPENFOAM], "steps 1 to 3 on rows know no host"),
     ("fluid_adapter/coupled_step/*.[hc]pp", [MPI, TRANSPORT, OPENFOAM], "corrections with rigid grains know no host"),
@@ -86,12 +89,13 @@ PLANE_DOORS = {
     "problem/mobilities.hpp": "lists the kinds of mobility that a problem may have",
     "problem/mobilities.cpp": "makes the mobilities of dry bodies",
     "problem/residual.cpp": "measures a problem with the operator of its kind",
+    "problem/problem_file.cpp": "writes a problem with the assembled operator of its kind",
     "solvers/nlgs.cpp": "solves a problem with the rows of its kind",
     "detection/narrow_phase.hpp": "holds the shapes that have corners",
     "detection/narrow_phase.cpp": "lists the detectors of all pairs of shapes, and what walls may do",
 }
 SPACE_DOORS = {name: PLANE_DOORS[name] for name in (
-    "problem/mobilities.hpp", "problem/mobilities.cpp", "problem/residual.cpp", "solvers/nlgs.cpp",
+    "problem/mobilities.hpp", "problem/mobilities.cpp", "problem/problem_file.cpp", "problem/residual.cpp", "solvers/nlgs.cpp",
     "detection/narrow_phase.cpp")}
 SPACE_DOORS["detection/narrow_phase.hpp"] = "holds the rims that round walls share"
 PLANE_HEADER = re.compile(r'^\s*#\s*include\s*"granular_adapter/nscd/\w+/plane/', re.MULTILINE)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Common to the tests against Siconos: our solvers by name, and vectors of (n, t) of all contacts.
+// Common to the tests against Siconos: our solvers by name, and vectors of (n, t) or (n, t, s) of
+// all contacts.
 #pragma once
 
 #include <array>
@@ -49,7 +50,9 @@ enum Status { open, sticking, sliding };
 /// zero.
 inline Status status(const nscd::ContactProblem& problem, const std::vector<double>& r,
                      std::size_t k, double share = 1e-7) {
-    const double zero = share * norm(r), n = r[2 * k], t = std::abs(r[2 * k + 1]);
+    const auto d = static_cast<std::size_t>(nscd::dimension(problem.bodies));
+    const double zero = share * norm(r), n = r[d * k];
+    const double t = norm({&r[d * k + 1], &r[d * k] + d});
     if (n < zero) return open;
     return t > problem.contacts[k].friction * n - zero ? sliding : sticking;
 }

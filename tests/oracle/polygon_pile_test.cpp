@@ -74,7 +74,7 @@ struct Judgement {
         SCOPED_TRACE(named.name + ", " + solver);
         const nscd::SolverResult result = ours(solver, named.problem, 1e-7);
         EXPECT_TRUE(result.converged) << result.residual;
-        const std::vector<double> r = siconos::flat(result.impulses, {});
+        const std::vector<double> r = siconos::flat(result.impulses, 2);
         std::vector<double> velocities;
         EXPECT_LT(judge.error(r, &velocities), 1e-6);
         EXPECT_LT(relative_difference(velocities, u), 1e-5);
@@ -99,7 +99,7 @@ TEST(Triangles, AreSolvedAsBySiconosWithEverySolver) {
         const Judgement judgement(named);
         ASSERT_TRUE(judgement.theirs.converged) << named.name;
         EXPECT_LT(nscd::natural_map_residual(named.problem,
-                                             siconos::impulses_of(judgement.theirs.impulses, {})),
+                                             siconos::impulses_of(judgement.theirs.impulses, 2)),
                   1e-5)
             << named.name;
         for (const nscd::SolverEntry& entry : nscd::solvers_and_reference())

@@ -8,12 +8,10 @@
 #include <array>
 #include <cmath>
 
-#include "bench/siconos/dry_column.hpp"
 #include "bench/siconos/same_measure.hpp"
 #include "bench/siconos/siconos_problem.hpp"
+#include "each_other.hpp"
 #include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
-#include "granular_adapter/nscd/problem/residual.hpp"
-#include "judged.hpp"
 #include "problems.hpp"
 
 namespace turbidite {
@@ -26,25 +24,11 @@ using nscd::problems::random_problem;
 constexpr bench::DryColumn dense{.compacity = 0.9069, .width = 8.0, .height = 16.0};
 constexpr bench::DryColumn loose{.compacity = 0.7854, .width = 8.0, .height = 16.0};
 
-/// Dimensionless problems of a collapsing column.
-void take_problems(const std::string& name, const bench::DryColumn& column,
-                   std::vector<Named>& list) {
-    nscd::Engine engine = bench::dry_column(column);
-    const siconos::Scale scale{engine.bodies().mass.front(), column.step};
-    double now = 0.0;
-    for (const double time : {2.0, 4.0}) {
-        bench::play(engine, time - now, column.step);
-        now = time;
-        list.push_back({name + ", t = " + std::to_string(int(time)),
-                        siconos::dimensionless(engine.problem(), scale)});
-    }
-}
-
 const std::vector<Named>& problems_of_columns() {
     static const std::vector<Named> list = [] {
         std::vector<Named> all;
-        take_problems("dense", dense, all);
-        take_problems("loose", loose, all);
+        take_problems("dense", bench::dry_column(dense), dense.step, {2.0, 4.0}, all);
+        take_problems("loose", bench::dry_column(loose), loose.step, {2.0, 4.0}, all);
         return all;
     }();
     return list;
@@ -86,36 +70,15 @@ TEST(SiconosMeasure, IsWhatWeTakeItFor) {
         nscd::Impulses r(named.problem.contacts.size());
         for (std::size_t k = 0; k < r.size(); ++k)
             r[k] = nscd::in_plane(std::sin(double(k)) + 0.5, 0.2 * std::cos(3.0 * double(k)));
-        const double theirs = siconos::Problem(named.problem, {}).error(siconos::flat(r, {}));
+        const double theirs = siconos::Problem(named.problem, {}).error(siconos::flat(r, 2));
         EXPECT_NEAR(siconos::error_measure(named.problem, r), theirs, 1e-12 * theirs);
         EXPECT_GT(theirs, 1e-3);
     }
 }
 
-void compare_with_siconos(const Named& named, const siconos::Problem& judge,
-                          const siconos::Solution& theirs, const std::string& solver) {
-    SCOPED_TRACE(named.name + ", " + solver);
-    const nscd::SolverResult result = ours(solver, named.problem, 1e-6);
-    EXPECT_TRUE(result.converged) << result.residual;
-    std::vector<double> u_ours, u_theirs;
-    EXPECT_LT(judge.error(siconos::flat(result.impulses, {}), &u_ours), 1e-6);
-    judge.error(theirs.impulses, &u_theirs);
-    EXPECT_LT(relative_difference(u_ours, u_theirs), 1e-5);
-}
-
 // Each solution passes the other code's measure, and the contact velocities agree.
 TEST(Columns, HaveTheVelocitiesOfSiconosWithEverySolver) {
-    for (const Named& named : problems_of_columns()) {
-        const siconos::Problem judge(named.problem, {});
-        const siconos::Solution theirs = judge.solve("nsgs", 1e-7, 100000);
-        ASSERT_TRUE(theirs.converged) << named.name;
-        EXPECT_LT(
-            nscd::natural_map_residual(named.problem, siconos::impulses_of(theirs.impulses, {})),
-            1e-6)
-            << named.name;
-        for (const nscd::SolverEntry& entry : nscd::solvers_and_reference())
-            compare_with_siconos(named, judge, theirs, entry.name);
-    }
+    for (const Named& named : problems_of_columns()) judge_each_other(named, {});
 }
 
 // One contact per body, so that W is regular: impulses and statuses are unique.
@@ -129,7 +92,7 @@ TEST(Siconos, AgreesOnImpulsesAndStatusesWhereTheyAreUnique) {
         ASSERT_TRUE(theirs.converged) << seed;
         for (const nscd::SolverEntry& entry : nscd::solvers_and_reference()) {
             const nscd::SolverResult result = ours(entry.name, problem, 1e-12);
-            const std::vector<double> r = siconos::flat(result.impulses, {});
+            const std::vector<double> r = siconos::flat(result.impulses, 2);
             EXPECT_LT(relative_difference(theirs.impulses, r), 1e-8) << seed << entry.name;
             EXPECT_EQ(statuses(problem, r), statuses(problem, theirs.impulses)) << seed;
             EXPECT_LT(judge.error(r), 1e-10);

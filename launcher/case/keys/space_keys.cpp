@@ -72,10 +72,26 @@ Ruling solver_works_in_space(const Settings& s) {
                      "Use nlgs, or dimension: 2."};
 }
 
-Ruling no_problem_files_in_space(const Settings& s) {
-    if (!in_space(s)) return std::nullopt;
-    return Objection{"Contact problems of space are not written to files in this version.",
-                     "Remove it, or use dimension: 2."};
+Ruling files_know_torsion(const Settings& s) {
+    if (!in_space(s) || s.real("contact.torsion_friction") == 0.0) return std::nullopt;
+    return Objection{fmt::format("The files of Siconos do not support torsional resistance, but "
+                                 "contact.torsion_friction = {}.",
+                                 s.text("contact.torsion_friction")),
+                     "Remove one of the two keys."};
+}
+
+Ruling files_know_films(const Settings& s) {
+    if (!is_wet_space(s) || s.text("contact.film") == "none") return std::nullopt;
+    return Objection{
+        fmt::format("The files of Siconos do not support films, but contact.film = {}.",
+                    s.text("contact.film")),
+        "Remove one of the two keys."};
+}
+
+Ruling files_are_of_one_rank(const Settings& s) {
+    if (!in_space(s) || s.integer("grains.ranks") == 1) return std::nullopt;
+    return Objection{"Contact problems shared by several ranks are not written in this version.",
+                     "Remove it, or use grains.ranks: 1."};
 }
 
 }  // namespace
@@ -85,7 +101,9 @@ KeyGroup space_keys() {
         {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
         {"domain.walls_file", {"dimension", "fluid.enabled"}, only_in_the_plane},
         {"contact.solver", {"dimension"}, solver_works_in_space},
-        {"contact.dump_interval", {"dimension"}, no_problem_files_in_space},
+        {"contact.dump_interval", {"dimension", "contact.torsion_friction"}, files_know_torsion},
+        {"contact.dump_interval", {"contact.film", "dimension", "fluid.enabled"}, files_know_films},
+        {"contact.dump_interval", {"dimension", "grains.ranks"}, files_are_of_one_rank},
         {"fluid.points", {"dimension", "fluid.enabled"}, points_are_interior},
         {pressure_solver, {"dimension", "fluid.enabled"}, is_direct<pressure_solver>},
         {viscous_solver, {"dimension", "fluid.enabled"}, is_direct<viscous_solver>},

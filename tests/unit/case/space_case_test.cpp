@@ -101,15 +101,28 @@ TEST_F(PlaneCase, WhatIsOfSpaceIsRefused) {
 // All at once, each in words.
 TEST_F(SpaceCase, WhatSpaceCannotDoIsRefusedAtOnce) {
     folder.write("w.csv", "id,x1,y1,x2,y2\n0,1,1,2,2\n");
-    const std::string text =
-        refusal("", {"fluid.enabled=true", "fluid.reynolds=10", "grains.shape=disc",
-                     "domain.walls_file=w.csv", "contact.solver=central-path",
-                     "domain.size=[12, 10]", "contact.dump_interval=1"});
+    const std::string text = refusal(
+        "", {"fluid.enabled=true", "fluid.reynolds=10", "grains.shape=disc",
+             "domain.walls_file=w.csv", "contact.solver=central-path", "domain.size=[12, 10]"});
     EXPECT_SAYS(text, "In space grains are spheres in this version.");
     EXPECT_SAYS(text, "In space the first line must read id,kind,x,y,z");
     EXPECT_SAYS(text, "central-path solves contacts of the plane only.");
-    EXPECT_SAYS(text, "Contact problems of space are not written");
     EXPECT_SAYS(text, "In space length, height and depth of the box in D, all above 0.");
+}
+
+// Signorini and Coulomb only, of one rank.
+TEST_F(SpaceCase, FilesOfContactProblemsDoNotHoldEverything) {
+    EXPECT_EQ(refusal("", {"contact.dump_interval=1"}), "");
+    EXPECT_SAYS(refusal("", {"contact.dump_interval=1", "contact.torsion_friction=0.1"}),
+                "do not support torsional resistance, but contact.torsion_friction = 0.1.");
+    EXPECT_SAYS(refusal("", {"contact.dump_interval=1", "contact.rolling_friction=0.1"}),
+                "do not support rolling resistance, but contact.rolling_friction = 0.1.");
+    EXPECT_SAYS(
+        refusal("", {"contact.dump_interval=1", "contact.film=lubrication", "fluid.enabled=true",
+                     "fluid.reynolds=10", "fluid.cells_per_diameter=8"}),
+        "do not support films, but contact.film = lubrication.");
+    EXPECT_SAYS(refusal("", {"contact.dump_interval=1", "grains.ranks=2"}),
+                "Contact problems shared by several ranks are not written");
 }
 
 // What a fluid in the plane can do and one in space cannot.

@@ -2,9 +2,12 @@
 //
 // The contact engine as an adapter in space: six sides, velocities of three components.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <set>
 
@@ -63,6 +66,27 @@ TEST(NscdAdapterInSpace, PlaysInBothDimensions) {
     EXPECT_NE(
         std::find(hello.capabilities.shapes.begin(), hello.capabilities.shapes.end(), "sphere"),
         hello.capabilities.shapes.end());
+}
+
+// Two contacts of three components: with the floor, and between the spheres.
+TEST(NscdAdapterInSpace, WritesContactProblems) {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) /
+                                         ("dumps-in-space-" + std::to_string(::getpid()));
+    Settings settings = space_box();
+    settings.set("time.step", 0.01);
+    settings.set("contact.dump_interval", 0.01);
+    NscdAdapter adapter;
+    adapter.set_run_folder(folder);
+    adapter.initialise(settings, spheres,
+                       {sphere_at(1, {5.0, 0.5, 3.0}), sphere_at(2, {5.0, 1.5, 3.0})});
+    Window window;
+    window.step = 0.01;
+    adapter.advance(window, {});
+    adapter.apply_kick(window, {});
+    std::ifstream file(folder / "contacts" / "problem_1.dat");
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    EXPECT_EQ(text.substr(0, 10), "3\n2\n1\n6\n6\n");
+    std::filesystem::remove_all(folder);
 }
 
 TEST(NscdAdapterInSpace, ASphereFallsOnTheFloorAndStays) {

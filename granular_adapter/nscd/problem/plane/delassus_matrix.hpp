@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The Delassus operator W = H^T M^-1 H (Topin 2011, Eq. 19), assembled in block compressed row
-// storage: one 2x2 block (n, t) for every pair of contacts that share a movable body. [1/kg]
+// The assembled Delassus operator (coupled_rows.hpp) of contacts in the plane, in 2x2 blocks (n,
+// t). [1/kg]
 //
 // Bitwise symmetric. Covers normal and tangent only, not rolling.
 #pragma once
@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "granular_adapter/nscd/problem/contact_problem.hpp"
+#include "granular_adapter/nscd/problem/coupled_rows.hpp"
 #include "granular_adapter/nscd/problem/plane/one_contact.hpp"
 
 namespace turbidite::nscd {
@@ -20,13 +20,25 @@ namespace turbidite::nscd {
 struct Coupling {
     Plane by_n{};
     Plane by_t{};
+
+    Coupling& operator+=(const Coupling& share);
+
+    // For coupled_rows.
+    using Mobility = PlanarTensor;
+
+    /// Directions n and t as (x, y, spin) of the body, with the sign of the impulse on it.
+    struct End {
+        std::int32_t contact;
+        std::array<PlanarVector, 2> direction;
+    };
+
+    static End end_of(const Contact& contact, std::int32_t index, bool at_b);
+    static Coupling share(const PlanarTensor& body, const End& row, const End& column);
+    static Coupling transposed(const Coupling& w);
 };
 
-struct DelassusMatrix {
-    std::vector<Block> diagonal;          ///< W_kk
-    std::vector<std::int64_t> row_start;  ///< of block row k in the arrays below; one more entry
-    std::vector<std::int32_t> column;     ///< block column j != k, ascending within a row
-    std::vector<Coupling> coupling;       ///< W_kj
+struct DelassusMatrix : CoupledRows<Coupling> {
+    std::vector<Block> diagonal;  ///< W_kk
 
     explicit DelassusMatrix(const ContactProblem& problem);
 
