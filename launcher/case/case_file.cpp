@@ -65,8 +65,9 @@ ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& en
     result.yaml =
         resolved_text(settings, grains.size(),
                       {result.grains_csv, result.walls_csv, result.script, result.functions.text});
-    for (const auto& notes : {placed.start.notes, forms.notes, rule_notes(settings, entries),
-                              unfollowed_motions(settings, placed.walls, grains)})
+    for (const auto& notes :
+         {placed.start.notes, forms.notes, unfollowed_motions(settings, placed.walls, grains),
+          rule_notes(settings, entries)})
         result.notes.insert(result.notes.end(), notes.begin(), notes.end());
     result.shapes = used_shapes(grains, forms);
     result.population = grain_states(grains, settings, result.scales);

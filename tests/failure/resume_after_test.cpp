@@ -21,6 +21,7 @@ using Milliseconds = std::chrono::milliseconds;
 class ResumeAfter : public FailingRun {
  protected:
     void SetUp() override {
+        ::setenv("TURBIDITE_REPORT", "off", 1);  // no test here looks at it
         scratch.write("small.yaml",
                       "domain: {size: [6, 6]}\n"
                       "grains: {adapter: standalone-nscd, count: 6}\n"
