@@ -12,7 +12,6 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pandas
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'launcher/python'))
 import turbidite  # noqa: E402
@@ -31,30 +30,34 @@ def garside(reynolds):
 
 
 def measured(folder):
-    """Of a run: solid fraction, V [u_c], spread, and the particle Reynolds number V D/nu."""
+    """Of a run: its group, solid fraction, V [u_c], spread, particle Reynolds number V D/nu, and the flow at its end."""
     run = turbidite.load(folder)
-    history = run.history
-    slip = (history['flow_y'] - history['mean_velocity_y'])[history['time'] > history['time'].iloc[-1] / 3]
-    parts = [part.mean() for part in np.array_split(slip.to_numpy(), 10)]
-    case = run.case
-    size = [float(n) for n in case['domain']['size']]
-    count = float(history['grains'].iloc[-1])
-    return {'run': Path(folder).name, 'phi': count * np.pi / 6 / np.prod(size), 'V': np.mean(parts),
-            'spread': np.std(parts) / np.sqrt(len(parts)), 'Re': np.mean(parts) / float(case['scales']['viscosity']),
-            'drift': history['flow_y'].iloc[-1]}
+    time, flow, speed = (np.asarray(run.history[name]) for name in ('time', 'flow_y', 'mean_velocity_y'))
+    slip = (flow - speed)[time > time[-1] / 3]
+    parts = [part.mean() for part in np.array_split(slip, 10)]
+    volume = np.prod([float(length) for length in run.case['domain']['size']])
+    phi = float(run.history['grains'].tolist()[-1]) * np.pi / 6 / volume
+    speed = np.mean(parts)
+    return (Path(folder).name.rsplit('-', 1)[0], phi, speed, np.std(parts) / np.sqrt(len(parts)),
+            speed / float(run.case['scales']['viscosity']), flow[-1])
+
+
+def print_group(group, runs):
+    phi, speed, spread, reynolds, drift = np.array(sorted(run[1:] for run in runs)).T
+    print('phi      V [u_c]  spread   Re       flow at the end')
+    for row in zip(phi, speed, spread, reynolds, drift):
+        print('  '.join(f'{value:<7.4g}' for value in row))
+    n, start = np.polyfit(np.log1p(-phi), np.log(speed), 1)
+    alone = np.exp(start)
+    of_alone = alone * reynolds[0] / speed[0]
+    print(f'{group}: n = {n:.2f}, k V_t = {alone:.4g} u_c, Re = {of_alone:.3g}; '
+          f'Rowe {rowe(of_alone):.2f}, Garside and Al-Dibouni {garside(of_alone):.2f}\n')
 
 
 def main(folder):
-    runs = pandas.DataFrame(measured(path) for path in sorted(Path(folder).iterdir()) if (path / 'history.csv').is_file())
-    runs['group'] = runs['run'].str.rsplit('-', n=1).str[0]
-    for group, rows in runs.groupby('group'):
-        rows = rows.sort_values('phi')
-        n, start = np.polyfit(np.log1p(-rows['phi']), np.log(rows['V']), 1)
-        alone = np.exp(start)
-        reynolds = alone * (rows['Re'] / rows['V']).iloc[0]
-        print(rows.to_string(index=False, columns=['run', 'phi', 'V', 'spread', 'Re', 'drift'], float_format='%.4g'))
-        print(f'{group}: n = {n:.2f}, k V_t = {alone:.4g} u_c, Re = {reynolds:.3g}; '
-              f'Rowe {rowe(reynolds):.2f}, Garside and Al-Dibouni {garside(reynolds):.2f}')
+    runs = [measured(path) for path in sorted(Path(folder).iterdir()) if (path / 'history.csv').is_file()]
+    for group in sorted({run[0] for run in runs}):
+        print_group(group, [run for run in runs if run[0] == group])
 
 
 if __name__ == '__main__':
