@@ -32,8 +32,8 @@ def garside(reynolds):
 def measured(folder):
     """Of a run: its group, solid fraction, V [u_c], spread, particle Reynolds number V D/nu, and the flow at its end."""
     run = turbidite.load(folder)
-    time, flow, speed = (np.asarray(run.history[name]) for name in ('time', 'flow_y', 'mean_velocity_y'))
-    slip = (flow - speed)[time > time[-1] / 3]
+    time, flow, fall = (np.asarray(run.history[name]) for name in ('time', 'flow_y', 'mean_velocity_y'))
+    slip = (flow - fall)[time > time[-1] / 3]
     parts = [part.mean() for part in np.array_split(slip, 10)]
     volume = np.prod([float(length) for length in run.case['domain']['size']])
     phi = float(run.history['grains'].tolist()[-1]) * np.pi / 6 / volume

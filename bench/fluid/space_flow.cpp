@@ -23,6 +23,7 @@
 #include "coupler/protocol/scene/splitting.hpp"
 #include "fluid_adapter/box_app/array_store.hpp"
 #include "fluid_adapter/fluid_window/fluid_window.hpp"
+#include "granular_adapter/nscd/problem/periodic_box.hpp"
 
 namespace turbidite {
 namespace {
@@ -129,29 +130,29 @@ class Play {
 struct Packing {
     double length = 1.0;
     std::vector<Vec3> centres;
+
+    nscd::PeriodicBox box() const { return {.length = {length, length, length}}; }
 };
 
+/// The edge of a cube that so many spheres fill to this fraction.
+double period(int count, double fraction) {
+    return std::cbrt(count * pi / 6.0 / fraction);
+}
+
 Packing simple_cubic(double fraction) {
-    return {std::cbrt(pi / 6.0 / fraction), {Vec3{}}};
+    return {period(1, fraction), {Vec3{}}};
 }
 
 /// Face-centred cubic: four spheres per cube.
 Packing face_centred(double fraction) {
-    const double length = std::cbrt(4.0 * pi / 6.0 / fraction), half = 0.5 * length;
+    const double length = period(4, fraction), half = 0.5 * length;
     return {length, {Vec3{}, {half, half, 0.0}, {half, 0.0, half}, {0.0, half, half}}};
-}
-
-/// From centre a to the nearest image of centre b.
-Vec3 to_nearest(const Packing& packing, const Vec3& a, const Vec3& b) {
-    Vec3 d = b - a;
-    for (int axis = 0; axis < 3; ++axis)
-        d[axis] -= packing.length * std::round(d[axis] / packing.length);
-    return d;
 }
 
 /// Random places, pushed apart until no two spheres overlap by more than 1e-3 D: to 0.62 or so.
 Packing random_packing(double fraction, int count, unsigned seed) {
-    Packing packing{std::cbrt(count * pi / 6.0 / fraction), std::vector<Vec3>(count)};
+    Packing packing{period(count, fraction), std::vector<Vec3>(count)};
+    const nscd::PeriodicBox box = packing.box();
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> place(0.0, packing.length);
     for (Vec3& centre : packing.centres) {
@@ -163,7 +164,7 @@ Packing random_packing(double fraction, int count, unsigned seed) {
         overlap = 0.0;
         for (int a = 0; a < count; ++a)
             for (int b = a + 1; b < count; ++b) {
-                const Vec3 d = to_nearest(packing, packing.centres[a], packing.centres[b]);
+                const Vec3 d = box.minimum_image(packing.centres[b] - packing.centres[a]);
                 const double distance = norm(d);
                 if (distance >= 1.0) continue;
                 overlap = std::max(overlap, 1.0 - distance);
@@ -197,10 +198,8 @@ double superficial_velocity(const Packing& packing, const StokesCase& of, const 
     Play play(flow);
     std::vector<GrainState> grains;
     for (const Vec3& centre : packing.centres) {
-        Vec3 at = flow.edge * offset + centre + 0.5 * packing.length * Vec3{1.0, 1.0, 1.0};
-        for (int axis = 0; axis < 3; ++axis)
-            at[axis] -= packing.length * std::floor(at[axis] / packing.length);
-        grains.push_back(sphere(at, 1.5));
+        const Vec3 at = flow.edge * offset + centre + 0.5 * packing.length * Vec3{1.0, 1.0, 1.0};
+        grains.push_back(sphere(packing.box().wrap(at), 1.5));
         grains.back().id = static_cast<GrainId>(grains.size());
         grains.back().prescribed = true;
     }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
+#include "nlgs_stored.hpp"
 #include "problems.hpp"
 
 namespace turbidite::judged {

@@ -60,13 +60,24 @@ struct Sweeper {
 };
 
 void refuse_rolling(const ContactProblem& problem) {
-    if (has_rolling(problem))
+    if (std::any_of(problem.contacts.begin(), problem.contacts.end(),
+                    [](const Contact& contact) { return contact.rolling > 0.0; }))
         throw std::invalid_argument(
             "contact solver nlgs-stored does not support rolling resistance, which the contact law "
             "requires: use nlgs or central-path");
 }
 
 }  // namespace
+
+std::vector<Plane> free_contact_velocities(const ContactProblem& problem) {
+    std::vector<Plane> u;
+    u.reserve(problem.contacts.size());
+    for (const Contact& contact : problem.contacts) {
+        const ContactVector free = contact_velocity(contact, problem.free) + contact.bias;
+        u.push_back({free.n, free.t});
+    }
+    return u;
+}
 
 SolverResult NlgsStored::solve(const ContactProblem& problem, const Impulses& guess,
                                const SolverSettings& settings) const {

@@ -12,6 +12,7 @@
 
 #include <vector>
 
+#include "granular_adapter/nscd/problem/plane/one_contact.hpp"
 #include "granular_adapter/nscd/solvers/solver_list.hpp"
 
 namespace turbidite::nscd {
@@ -22,6 +23,9 @@ class NlgsStored final : public ContactSolver {
     SolverResult solve(const ContactProblem& problem, const Impulses& guess,
                        const SolverSettings& settings) const override;
 };
+
+/// u = H^T v_free + b of every contact, (n, t) [m/s].
+std::vector<Plane> free_contact_velocities(const ContactProblem& problem);
 
 /// The solvers that a case may choose, and behind them `nlgs-stored`.
 const std::vector<SolverEntry>& solvers_and_reference();

@@ -12,6 +12,7 @@
 #include "bench/siconos/siconos_problem.hpp"
 #include "each_other.hpp"
 #include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
+#include "nlgs_stored.hpp"
 #include "problems.hpp"
 
 namespace turbidite {

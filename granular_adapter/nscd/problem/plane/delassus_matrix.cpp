@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/problem/plane/delassus_matrix.hpp"
 
-#include <algorithm>
-
 #include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/problem/plane/delassus.hpp"
 
@@ -44,21 +42,6 @@ DelassusMatrix::DelassusMatrix(const ContactProblem& problem) {
     const Delassus blocks(problem);
     static_cast<CoupledRows<Coupling>&>(*this) = coupled_rows<Coupling>(problem, blocks.bodies());
     for (std::size_t k = 0; k < problem.contacts.size(); ++k) diagonal.push_back(blocks.block(k));
-}
-
-std::vector<Plane> free_contact_velocities(const ContactProblem& problem) {
-    std::vector<Plane> u;
-    u.reserve(problem.contacts.size());
-    for (const Contact& contact : problem.contacts) {
-        const ContactVector free = contact_velocity(contact, problem.free) + contact.bias;
-        u.push_back({free.n, free.t});
-    }
-    return u;
-}
-
-bool has_rolling(const ContactProblem& problem) {
-    return std::any_of(problem.contacts.begin(), problem.contacts.end(),
-                       [](const Contact& contact) { return contact.rolling > 0.0; });
 }
 
 }  // namespace turbidite::nscd

@@ -45,10 +45,4 @@ struct DelassusMatrix : CoupledRows<Coupling> {
     std::size_t size() const { return diagonal.size(); }
 };
 
-/// u = H^T v_free + b of every contact, (n, t) [m/s].
-std::vector<Plane> free_contact_velocities(const ContactProblem& problem);
-
-/// Whether any contact has rolling resistance, which (n, t) problems cannot express.
-bool has_rolling(const ContactProblem& problem);
-
 }  // namespace turbidite::nscd
