@@ -22,8 +22,8 @@ std::vector<std::string> line(const Site& site, const std::filesystem::path& res
     const std::filesystem::path program = site.programs().folder / "turbidite-bench-siconos";
     if (!std::filesystem::exists(program))
         throw Failure(ExitCode::tests_failed,
-                      "not measured: Siconos is not installed (Debian package "
-                      "libsiconos-numerics-dev; then remove build/release and build again)");
+                      "not measured: this build has no Siconos (Debian package "
+                      "libsiconos-numerics-dev; then configure and build again)");
     std::vector<std::string> words{program, "--result", result, "--solvers", ours};
     const std::vector<std::string>& more = site.quick() ? quick_column : column;
     words.insert(words.end(), more.begin(), more.end());

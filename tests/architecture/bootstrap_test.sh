@@ -58,7 +58,9 @@ build="$work/a checkout/build/release"
 mkdir -p "$build/bin" "$work/headers"
 printf '#!/bin/bash\necho "arguments: $*"\nexit 5\n' >"$build/bin/turbidite"
 chmod +x "$build/bin/turbidite"
-printf 'root %s\nheaders %s\nwith tests\n' "$work/a checkout" "$work/headers" >"$build/.configured"
+packages=$(sed -n "/<<'LIST'/,/^LIST/s/^\([a-z][a-z+0-9.-]*\) .*/\1/p" "$work/a checkout/turbidite")
+configured() { printf 'root %s\nheaders %s\n%s\n' "$work/a checkout" "$work/headers" "$1" >"$build/.configured"; }
+configured "$packages"
 cat >"$build/build.ninja" <<NINJA
 rule write
   command = echo \$out >>"$work/built"
@@ -86,6 +88,13 @@ builds "bench fluid" "bench_programs run_programs"
 builds "test --unit" "bench_programs run_programs tests"
 builds "" "run_programs"
 builds "doctor" "run_programs"  # the program there knows no doctor
+
+# What was configured before a package came would lack what needs it. (There is nothing that CMake could configure.)
+configured "$(grep -v libsiconos <<<"$packages")"
+code=0
+output=$(cd / && PATH="$work/bin:$PATH" TURBIDITE_OPENFOAM_INCLUDE="$work/headers" "$work/a link" test 2>&1) || code=$?
+[[ $code == 7 && $output == *"configuring failed"* ]] || broken "a package has come, and nothing was configured again"
+configured "$packages"
 
 # A program that can judge the installation is started as it is.
 cp "$build/bin/turbidite" "$work/program"
