@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How much code the product has: lines of C++ without blanks and comments, by top folder, and the share of comments.
+"""How much code the product has: lines of C++ without blanks and comments, by top folder, and the share of comments:
+lines of their own, and lines that hold one, such as the formula behind a statement. The licence line does not count.
 
     bench/product_lines.py [--rooms] [FOLDER of another checkout, to compare with]
 """
@@ -26,9 +27,19 @@ def filled(text):
     return sum(bool(line.strip()) for line in text.split("\n"))
 
 
+def commented_lines(text):
+    """Numbers of the lines that hold a comment."""
+    numbers = set()
+    for token in TOKEN.finditer(text):
+        if token.group(0).startswith(("//", "/*")):
+            first = text.count("\n", 0, token.start())
+            numbers.update(range(first, first + token.group(0).count("\n") + 1))
+    return numbers
+
+
 def count(root):
-    """Counters of lines of code by folder, of comment lines in sources (.cpp), and of lines in them."""
-    code, comments, lines = Counter(), 0, 0
+    """Lines of code by folder (a Counter); in sources (.cpp): lines that are a comment, that hold one, and all."""
+    code, alone, holding, lines = Counter(), 0, 0, 0
     for house in HOUSES:
         for path in sorted((root / house).rglob("*")):
             if path.suffix not in SOURCES:
@@ -38,8 +49,9 @@ def count(root):
             code[str(path.parent.relative_to(root))] += own
             if path.suffix == ".cpp":
                 lines += filled(text)
-                comments += filled(text) - own
-    return code, comments, lines
+                alone += filled(text) - own - 1
+                holding += len(commented_lines(text)) - 1
+    return code, alone, holding, lines
 
 
 def by_house(code):
@@ -55,17 +67,13 @@ def main():
     parser.add_argument("before", nargs="?", type=Path, help="folder of another checkout")
     parser.add_argument("--rooms", action="store_true", help="every folder")
     options = parser.parse_args()
-    code, comments, lines = count(ROOT)
+    code, alone, holding, lines = count(ROOT)
     other = count(options.before)[0] if options.before else None
     rows, others = (code, other) if options.rooms else (by_house(code), by_house(other) if other else None)
     for name in sorted(set(rows) | set(others or ())):
         show(name, rows.get(name, 0), others.get(name, 0) if others is not None else None)
     show("together", sum(code.values()), sum(other.values()) if other is not None else None)
-    print(f"comments in sources (.cpp), without licence lines: {100 * (comments - licences()) / lines:.1f} %")
-
-
-def licences():
-    return sum(1 for house in HOUSES for _ in (ROOT / house).rglob("*.cpp"))
+    print(f"sources (.cpp): {100 * alone / lines:.1f} % of lines are a comment, {100 * holding / lines:.1f} % hold one")
 
 
 if __name__ == "__main__":
