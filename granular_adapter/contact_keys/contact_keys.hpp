@@ -4,6 +4,8 @@
 // here, below the case file, because a user's own YADE script offers the same options.
 #pragma once
 
+#include <string>
+
 #include "coupler/keys/rule.hpp"
 
 namespace turbidite {
@@ -12,6 +14,10 @@ KeyGroup contact_problem_keys();     ///< friction, solver, tolerances
 KeyGroup contact_law_keys();         ///< friction laws, restitution, rolling, adhesion
 KeyGroup material_keys();            ///< contact.materials.NAME.*, contact.pairs.FIRST-SECOND.*
 KeyGroup molecular_dynamics_keys();  ///< contact.md_*
+
+/// The first key that gives a coefficient above zero, of contact.* or of a material or pair:
+/// "contact.materials.steel.rolling_friction". Empty if there is none.
+std::string positive_coefficient(const Settings& settings, const std::string& coefficient);
 
 /// All groups in one table.
 KeyTable contact_key_table();

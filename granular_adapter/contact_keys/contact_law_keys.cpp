@@ -65,10 +65,8 @@ std::string without_bonds(const Settings& s) {
 }
 /// Covers the restitution of every material and pair as well.
 std::string without_restitution(const Settings& s) {
-    for (const auto& [key, value] : s.entries())
-        if (key.rfind("contact.", 0) == 0 && key.find("restitution") != std::string::npos &&
-            key != "contact.restitution_speed" && parse_real(value).value_or(0.0) > 0.0)
-            return "";
+    for (const char* coefficient : {"restitution", "restitution_tangential"})
+        if (!positive_coefficient(s, coefficient).empty()) return "";
     return "without a restitution";
 }
 

@@ -11,11 +11,12 @@ namespace turbidite {
 namespace {
 
 Ruling dumps_know_rolling(const Settings& s) {
-    if (s.real("contact.rolling_friction") == 0.0) return std::nullopt;
-    return Objection{fmt::format("The files of Siconos do not support rolling resistance, but "
-                                 "contact.rolling_friction = {}.",
-                                 s.text("contact.rolling_friction")),
-                     "Remove one of the two keys."};
+    const std::string key = positive_coefficient(s, "rolling_friction");
+    if (key.empty()) return std::nullopt;
+    return Objection{
+        fmt::format("The files of Siconos do not support rolling resistance, but {} = {}.", key,
+                    s.text(key)),
+        "Remove one of the two keys."};
 }
 
 std::string without_recovery(const Settings& s) {

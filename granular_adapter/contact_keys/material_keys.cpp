@@ -2,8 +2,7 @@
 //
 // The keys of further materials and of pairs of materials. A material takes what it does not
 // specify from contact.*; a pair takes the smaller value of both, unless it specifies its own.
-#include <algorithm>
-
+#include "coupler/keys/key_value.hpp"
 #include "granular_adapter/contact_keys/contact_keys.hpp"
 
 namespace turbidite {
@@ -51,6 +50,17 @@ KeyGroup material_keys() {
                                 "two materials; the first material is called default"))
         table.push_back(std::move(key));
     return {.keys = std::move(table)};
+}
+
+std::string positive_coefficient(const Settings& settings, const std::string& coefficient) {
+    const std::string ending = "." + coefficient;
+    for (const auto& [key, value] : settings.entries()) {
+        const bool of_contacts = key.rfind("contact.", 0) == 0;
+        const bool ends_so = key.size() > ending.size() &&
+                             key.compare(key.size() - ending.size(), ending.size(), ending) == 0;
+        if (of_contacts && ends_so && parse_real(value).value_or(0.0) > 0.0) return key;
+    }
+    return "";
 }
 
 }  // namespace turbidite

@@ -51,10 +51,20 @@ fs::path fresh_folder(std::string case_name) {
     return folder;
 }
 
-bool holds_something(const fs::path& folder) {
-    if (!fs::is_directory(folder)) return fs::exists(folder);
-    return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                       [](const auto& entry) { return entry.path().filename() != RunLock::file; });
+/// Written before the case, whole or not: left by a run that was killed, or found the disk full,
+/// before it had a case.
+bool precedes_the_case(const fs::path& file, const RunFolder& folder) {
+    const std::string name = file.string();
+    return file == folder.root / RunLock::file ||
+           name.rfind(folder.initial_grains().string(), 0) == 0 ||
+           name.rfind(folder.walls().string(), 0) == 0;
+}
+
+bool holds_something(const RunFolder& folder) {
+    return std::any_of(fs::recursive_directory_iterator(folder.root),
+                       fs::recursive_directory_iterator(), [&](const fs::directory_entry& entry) {
+                           return !entry.is_directory() && !precedes_the_case(entry.path(), folder);
+                       });
 }
 
 bool is_run_folder(const RunFolder& folder) {
@@ -157,7 +167,7 @@ OwnFolder folder_for(const fs::path& wanted, bool force) {
     // Only what looks like a run is emptied, and only with the lock.
     if (force && is_run_folder(folder))
         empty_run_folder(folder);
-    else if (holds_something(folder.root))
+    else if (holds_something(folder))
         throw folder_refused(
             wanted, is_run_folder(folder) ? "is not empty" : "is not empty, and no run is in it",
             std::string("A run needs a new or empty folder. Choose another --out") +

@@ -233,7 +233,7 @@ void prepare_fluid(const ResolvedCase& resolved, const RunFolder& folder, const 
 }
 
 void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::int64_t windows,
-                  const std::vector<std::string>& line) {
+                  const std::vector<std::string>& line, const std::vector<std::string>& overrides) {
     auto record = read_run_json(folder.record());
     record["status"] = "prepared";
     record["exit_code"] = nullptr;
@@ -242,6 +242,7 @@ void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::in
     record["windows"] = resolved.settings.integer("run.windows");
     record["command"] = shell_line(line);
     record["parts"].push_back({{"resumed", local_time("%Y-%m-%dT%H:%M:%S%z")},
+                               {"overrides", overrides},
                                {"from_window", windows},
                                {"windows_done", windows},
                                {"status", "prepared"}});
@@ -322,7 +323,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     prepare_fluid(resolved, folder, *chosen);
     keep_for_recording(resolved, folder, *chosen);
     const auto line = launch_arguments(resolved.settings, folder, site, chosen->name);
-    write_record(resolved, folder, chosen->manifest.windows, line);
+    write_record(resolved, folder, chosen->manifest.windows, line, overrides);
     // Last: what the job relies on is there, also after a power cut.
     put_run_on_disk(folder);
     return Resumed{{folder, lock, line, rank_names(resolved.settings), resolved.settings},

@@ -78,6 +78,7 @@ class Resume : public ShellTest {
         ASSERT_EQ(parts.size(), 2u);
         EXPECT_EQ(parts[1].at("from_window"), 84);
         EXPECT_EQ(parts[1].at("windows_done"), 160);
+        EXPECT_EQ(parts[1].at("overrides")[0], "time.end=2");
     }
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "coupler/protocol/scene/sides.hpp"
+#include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 
 namespace turbidite {
@@ -73,11 +74,12 @@ Ruling solver_works_in_space(const Settings& s) {
 }
 
 Ruling files_know_torsion(const Settings& s) {
-    if (!in_space(s) || s.real("contact.torsion_friction") == 0.0) return std::nullopt;
-    return Objection{fmt::format("The files of Siconos do not support torsional resistance, but "
-                                 "contact.torsion_friction = {}.",
-                                 s.text("contact.torsion_friction")),
-                     "Remove one of the two keys."};
+    const std::string key = positive_coefficient(s, "torsion_friction");
+    if (!in_space(s) || key.empty()) return std::nullopt;
+    return Objection{
+        fmt::format("The files of Siconos do not support torsional resistance, but {} = {}.", key,
+                    s.text(key)),
+        "Remove one of the two keys."};
 }
 
 Ruling files_know_films(const Settings& s) {

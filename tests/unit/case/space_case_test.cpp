@@ -117,6 +117,11 @@ TEST_F(SpaceCase, FilesOfContactProblemsDoNotHoldEverything) {
                 "do not support torsional resistance, but contact.torsion_friction = 0.1.");
     EXPECT_SAYS(refusal("", {"contact.dump_interval=1", "contact.rolling_friction=0.1"}),
                 "do not support rolling resistance, but contact.rolling_friction = 0.1.");
+    const std::string steel = "contact.materials.steel.";
+    EXPECT_EQ(refusal("", {"contact.dump_interval=1", steel + "rolling_friction=0"}), "");
+    for (const char* name : {"rolling_friction", "torsion_friction"})
+        EXPECT_SAYS(refusal("", {"contact.dump_interval=1", steel + name + "=0.1"}),
+                    "resistance, but contact.materials.steel." + std::string(name) + " = 0.1.");
     EXPECT_SAYS(
         refusal("", {"contact.dump_interval=1", "contact.film=lubrication", "fluid.enabled=true",
                      "fluid.reynolds=10", "fluid.cells_per_diameter=8"}),

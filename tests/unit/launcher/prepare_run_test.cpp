@@ -73,6 +73,19 @@ TEST(PrepareRun, ForceTouchesNoFolderWithoutARun) {
     EXPECT_TRUE(fs::exists(scratch.path() / "home/logs/diary.log"));
 }
 
+// Killed, or on a full disk: what is there is written anew, and nothing else is taken for it.
+TEST(PrepareRun, ARunThatEndedBeforeItHadACaseLeavesAnEmptyFolder) {
+    const ScratchFolder scratch;
+    scratch.write("run/lock", "");
+    scratch.write("run/grains/initial.csv", "id,");
+    scratch.write("run/grains/walls.csv.part.123", "x");
+    fs::create_directories(scratch.path() / "run/logs");
+    EXPECT_EQ(make_run_folder({.out = scratch.path() / "run"}, "case").root,
+              scratch.path() / "run");
+    scratch.write("run/grains/mine.csv", "1");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "run"}), "is not empty, and no run is in it");
+}
+
 TEST(PrepareRun, DefaultFolderIsFreshAndPlain) {
     const ScratchFolder scratch;
     const fs::path before = fs::current_path();
