@@ -2,9 +2,6 @@
 //
 // The keys of contact laws. Forces are in weights of one grain, m g with the density of the grains:
 // the same physical force with and without a fluid.
-#include <algorithm>
-
-#include "coupler/keys/key_value.hpp"
 #include "granular_adapter/contact_keys/contact_keys.hpp"
 
 #include <fmt/format.h>
