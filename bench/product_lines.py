@@ -17,10 +17,14 @@ SOURCES = (".cpp", ".hpp", ".h", ".def")
 TOKEN = re.compile(r'R"([^(\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 
+def is_comment(token):
+    return token.group(0).startswith(("//", "/*"))
+
+
 def blank(token):
     """A comment becomes its line ends; everything else stays."""
     text = token.group(0)
-    return "\n" * text.count("\n") if text.startswith(("//", "/*")) else text
+    return "\n" * text.count("\n") if is_comment(token) else text
 
 
 def filled(text):
@@ -31,7 +35,7 @@ def commented_lines(text):
     """Numbers of the lines that hold a comment."""
     numbers = set()
     for token in TOKEN.finditer(text):
-        if token.group(0).startswith(("//", "/*")):
+        if is_comment(token):
             first = text.count("\n", 0, token.start())
             numbers.update(range(first, first + token.group(0).count("\n") + 1))
     return numbers
