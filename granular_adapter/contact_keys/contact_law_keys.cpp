@@ -33,12 +33,13 @@ Ruling moreau_has_one_restitution(const Settings& s) {
 
 Ruling only_discs_resist_rolling(const Settings& s) {
     const bool round = is(s, "grains.shape", "disc") || is(s, "grains.shape", "sphere");
-    if (s.real("contact.rolling_friction") == 0.0 || round) return std::nullopt;
+    const std::string key = positive_coefficient(s, "rolling_friction");
+    if (round || key.empty()) return std::nullopt;
     return Objection{
-        fmt::format("Rolling resistance is for round grains, but grains.shape = {}: polygons "
-                    "need none, since their faces resist rolling.",
-                    s.text("grains.shape")),
-        "Use 0."};
+        fmt::format("Rolling resistance is for round grains, but {} = {}: polygons need none, "
+                    "since their faces resist rolling.",
+                    key, s.text(key)),
+        "Use 0, or round grains."};
 }
 
 Ruling range_of_neighbours(const Settings& s) {
@@ -192,7 +193,7 @@ KeyGroup contact_law_keys() {
                   {"contact.restitution_tangential",
                    {"contact.impact"},
                    moreau_has_one_restitution},
-                  {"contact.rolling_friction", {"grains.shape"}, only_discs_resist_rolling},
+                  {"grains.shape", {"contact.rolling_friction"}, only_discs_resist_rolling},
                   {"contact.adhesion_range", {"contact.adhesion"}, range_of_neighbours}},
         .notes = law_notes};
 }

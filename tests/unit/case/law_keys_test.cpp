@@ -93,6 +93,9 @@ TEST_F(LawKeys, RollingResistanceNeedsDiscs) {
     EXPECT_EQ(refusal({"contact.rolling_friction=0.1"}), "");
     EXPECT_SAYS(refusal({"contact.rolling_friction=0.1", "grains.shape=triangle"}),
                 "their faces resist rolling");
+    EXPECT_SAYS(refusal({"contact.materials.steel.rolling_friction=0.1", "grains.shape=triangle"}),
+                "but contact.materials.steel.rolling_friction = 0.1: polygons need none");
+    EXPECT_EQ(refusal({"contact.materials.steel.rolling_friction=0.1"}), "");
 }
 
 TEST_F(LawKeys, WhatHasNoEffectIsNoted) {
