@@ -238,9 +238,9 @@ std::string fluid_for_paraview(const RunFolder& folder) {
 std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome) {
     if (outcome.code == ExitCode::done)
         return fmt::format(
-            "Done. Results in {}: {}history.csv; for ParaView grains/grains.pvd{}.\n",
+            "Done. Results in {}: {}history.csv; for ParaView {}grains/grains.pvd{}.\n",
             folder.root.string(), std::filesystem::exists(folder.report()) ? "report.html, " : "",
-            fluid_for_paraview(folder));
+            std::filesystem::exists(folder.view()) ? "view.py, " : "", fluid_for_paraview(folder));
     const bool asked_for =
         outcome.code == ExitCode::interrupted || outcome.code == ExitCode::terminated;
     // The cause stands last, beside what to do: logs may be long.

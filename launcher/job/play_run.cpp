@@ -53,6 +53,7 @@ PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const L
     const auto [folder, lock] = own_run_folder(order, resolved.name);
     const auto line = launch_arguments(resolved.settings, folder, site);
     prepare_run(resolved, folder, line);
+    add_view(folder, site.programs);
     return {folder, lock, line, rank_names(resolved.settings), resolved.settings};
 }
 

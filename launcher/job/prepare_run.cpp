@@ -76,7 +76,7 @@ void empty_run_folder(const RunFolder& folder) {
     for (const fs::path& part :
          {folder.resolved_case(), folder.record(), folder.history(), folder.grains(),
           folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.film(),
-          folder.checkpoints(), folder.stop(), folder.root / write_file,
+          folder.view(), folder.checkpoints(), folder.stop(), folder.root / write_file,
           folder.root / checkpoint_file, folder.recordings(), folder.root / "timeline",
           folder.root / "differences", folder.root / "probes.csv"})
         fs::remove_all(part);
@@ -225,6 +225,11 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
     write_run_json(folder.record(), first_record(resolved, folder, command));
     build_fluid(resolved.settings, folder);
     put_run_on_disk(folder);
+}
+
+void add_view(const RunFolder& folder, const Programs& programs) {
+    // Not in the place of a grains.script of that name.
+    if (!fs::exists(folder.view())) fs::copy_file(programs.view(), folder.view());
 }
 
 namespace {

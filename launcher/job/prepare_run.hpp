@@ -12,6 +12,7 @@
 #include "launcher/case/case_file.hpp"
 #include "launcher/case/files/run_folder.hpp"
 #include "launcher/job/folder/run_lock.hpp"
+#include "launcher/job/programs.hpp"
 
 namespace turbidite {
 
@@ -36,6 +37,9 @@ RunFolder make_run_folder(const RunOrder& order, const std::string& case_name);
 /// Fills it, and the disk has it. `command` is the launch line, kept in run.json.
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
                  const std::vector<std::string>& command);
+
+/// Adds the script that shows the run in ParaView.
+void add_view(const RunFolder& folder, const Programs& programs);
 
 /// The present time, as strftime writes it.
 std::string local_time(const char* form);

@@ -42,6 +42,7 @@ struct Programs {
     std::filesystem::path python() const { return "/usr/bin/python3"; }
     std::filesystem::path report() const { return source / "launcher/report/report.py"; }
     std::filesystem::path film() const { return source / "launcher/report/film.py"; }
+    std::filesystem::path view() const { return source / "launcher/report/view.py"; }
     /// The pages as a site, once it is built.
     std::filesystem::path site() const {
         return installed ? source.parent_path() / "doc/turbidite/html" : build() / "site";

@@ -254,6 +254,7 @@ PreparedRun from_the_beginning(const ResolvedCase& resolved, const RunFolder& fo
     const auto line = launch_arguments(resolved.settings, folder, site);
     fs::remove_all(folder.fluid());
     prepare_run(resolved, folder, line);
+    add_view(folder, site.programs);
     return {folder, std::move(lock), line, rank_names(resolved.settings), resolved.settings};
 }
 

@@ -32,6 +32,7 @@ struct RunFolder {
     std::filesystem::path report() const { return root / "report.html"; }
     std::filesystem::path pictures() const { return root / "pictures"; }
     std::filesystem::path film() const { return root / "film.webp"; }
+    std::filesystem::path view() const { return root / "view.py"; }
 
     std::filesystem::path checkpoints() const { return root / "checkpoints"; }
 

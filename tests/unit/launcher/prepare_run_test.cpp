@@ -52,12 +52,14 @@ TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
     scratch.write("run/case.yaml", "old");
     scratch.write("run/STOP", "130");
     scratch.write("run/probes.csv", "time\n");
+    scratch.write("run/view.py", "old");
     scratch.write("run/thesis.tex", "mine");
     const RunFolder folder =
         make_run_folder({.out = scratch.path() / "run", .force = true}, "case");
     EXPECT_FALSE(fs::exists(folder.resolved_case()));
     EXPECT_FALSE(fs::exists(folder.stop()));
     EXPECT_FALSE(fs::exists(folder.root / "probes.csv"));
+    EXPECT_FALSE(fs::exists(folder.view()));
     EXPECT_TRUE(fs::exists(folder.root / "thesis.tex"));
 }
 
@@ -118,6 +120,20 @@ TEST(PrepareRun, RunFolderLoadsToTheSameCase) {
     EXPECT_EQ(record.at("grains"), 7);
     EXPECT_EQ(record.at("windows"), 10);
     EXPECT_TRUE(record.at("exit_code").is_null());
+}
+
+TEST(PrepareRun, AScriptShowsTheRunInParaView) {
+    const ScratchFolder scratch;
+    const Programs programs = find_programs();
+    const auto size = [](const RunFolder& folder) { return fs::file_size(folder.view()); };
+    const RunFolder folder = make_run_folder({.out = scratch.path() / "run"}, "case");
+    add_view(folder, programs);
+    EXPECT_EQ(size(folder), fs::file_size(programs.view()));
+    // A script of the user's stays.
+    const RunFolder other = make_run_folder({.out = scratch.path() / "other"}, "case");
+    scratch.write("other/view.py", "mine");
+    add_view(other, programs);
+    EXPECT_EQ(size(other), 4u);
 }
 
 // Before the job begins, and with it the first checkpoint: a power cut then leaves a folder with
