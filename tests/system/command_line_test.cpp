@@ -144,7 +144,7 @@ TEST_F(CommandLine, RunLeavesAWholeFolder) {
     EXPECT_EQ(record().at("exit_code"), 0);
     EXPECT_EQ(rows_of_history(), 5);  // t = 0, 0.25, 0.5, 0.75, 1
     for (const char* file : {"case.yaml", "grains/initial.csv", "grains/grains.pvd",
-                             "logs/coupler.log", "logs/grains.log", "report.html"})
+                             "logs/coupler.log", "logs/grains.log", "report.html", "view.py"})
         EXPECT_TRUE(fs::exists(run_folder() / file)) << file;
     EXPECT_SAYS(text(run_folder() / "report.html"), "Status: done");
 }
