@@ -50,7 +50,8 @@ void LammpsMdHost::create(const Settings& settings, const ShapeTable&, const nsc
     const RunValues run = run_values(settings);
     gravity_ = run.gravity;
     size_ = run.size;
-    grains_.emplace(*lammps_, run.dimension);
+    const nscd::PeriodicBox period{{}, run.period};
+    grains_.emplace(*lammps_, run.dimension, period);
     borders_ = lay_borders(settings);
     law_.emplace(settings);
     stride_ = std::max<std::int64_t>(
@@ -61,7 +62,7 @@ void LammpsMdHost::create(const Settings& settings, const ShapeTable&, const nsc
     double radius = size_[0];
     for (const double r : bodies.radius) radius = std::min(radius, r);
     skin_ = neighbour_margin * smallest_of_all(radius, communicator_);
-    declare_box(*lammps_, run.dimension, size_, classes_->masses().size());
+    declare_box(*lammps_, run.dimension, size_, period, classes_->masses().size());
     declare_properties(*lammps_, run.dimension);
     grains_->create(bodies, *classes_, communicator_);
     start_engines();

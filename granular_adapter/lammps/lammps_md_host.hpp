@@ -31,6 +31,7 @@ class LammpsMdHost final : public MdHost {
     std::string code() const override;
     std::int32_t dimension() const override { return both_dimensions; }
     std::vector<std::string> shapes() const override { return {"disc", "sphere"}; }
+    bool repeats() const override { return true; }
     double velocity_lag() const override { return 0.0; }
     void create(const Settings& settings, const ShapeTable& shapes,
                 const nscd::Bodies& bodies) override;

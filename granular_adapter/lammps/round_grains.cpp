@@ -96,18 +96,20 @@ void RoundGrains::take(const std::vector<Newcomer>& newcomers, int giver, int fi
     }
 }
 
+Vec3 RoundGrains::centre(int index) const {
+    const double* x = lammps_.atoms<double**>("x")[index];
+    return period_.wrap({x[0], x[1], in_space() ? x[2] : 0.0});
+}
+
 void RoundGrains::read(nscd::Bodies& bodies) const {
-    double** x = lammps_.atoms<double**>("x");
     double** v = lammps_.atoms<double**>("v");
     double** omega = lammps_.atoms<double**>("omega");
     double** own = lammps_.atoms<double**>("d2_own");
     for_each([&](std::size_t place, int i) {
-        Vec3 position{};
         Twist twist;
-        freedom().each_push(
-            [&](int axis) { position[axis] = x[i][axis], twist.velocity[axis] = v[i][axis]; });
+        freedom().each_push([&](int axis) { twist.velocity[axis] = v[i][axis]; });
         freedom().each_turn([&](int axis) { twist.spin[axis] = omega[i][axis]; });
-        bodies.position[place] = position;
+        bodies.position[place] = centre(i);
         bodies.orientation[place] = orientation_of(own[i]);
         bodies.twist[place] = twist;
     });

@@ -16,6 +16,7 @@
 #include "granular_adapter/lammps/mass_classes.hpp"
 #include "granular_adapter/lammps/migration.hpp"
 #include "granular_adapter/nscd/problem/bodies.hpp"
+#include "granular_adapter/nscd/problem/periodic_box.hpp"
 
 namespace turbidite::lammps {
 
@@ -67,7 +68,8 @@ struct Freedom {
 class RoundGrains {
  public:
     /// `dimension`: 2 for discs, 3 for spheres.
-    RoundGrains(Library& lammps, int dimension) : lammps_(lammps), dimension_(dimension) {}
+    RoundGrains(Library& lammps, int dimension, const nscd::PeriodicBox& period)
+        : lammps_(lammps), dimension_(dimension), period_(period) {}
 
     /// The LAMMPS command for the arrays above.
     static std::string declaration(int dimension);
@@ -103,6 +105,10 @@ class RoundGrains {
             visit(static_cast<std::size_t>(place[i]), i);
     }
 
+    /// The centre of a grain by its index into LAMMPS' arrays, also of a copy, as it lies in the
+    /// box that repeats: LAMMPS lets grains run beyond a side until it sorts them anew.
+    Vec3 centre(int index) const;
+
     /// The id of a grain of this rank, or of another rank's grain that is copied here, by its index
     /// into LAMMPS' arrays.
     GrainId id(int index) const;
@@ -116,6 +122,7 @@ class RoundGrains {
 
     Library& lammps_;
     int dimension_;
+    nscd::PeriodicBox period_;
 };
 
 }  // namespace turbidite::lammps

@@ -76,12 +76,17 @@ void declare_walls(Library& lammps, const SoftLaw& law, const std::vector<double
 
 }  // namespace
 
-void declare_box(Library& lammps, int dimension, const Vec3& size, std::size_t types) {
-    // Boundaries `m` follow grains outwards; one layer of ranks along y and z makes strips along x.
+void declare_box(Library& lammps, int dimension, const Vec3& size, const nscd::PeriodicBox& period,
+                 std::size_t types) {
     const bool in_space = dimension == 3;
+    // Boundaries `m` follow grains outwards, `p` repeat; the plane has to repeat along z.
+    const auto boundary = [&](int axis) {
+        return period.repeats(axis) || (axis == 2 && !in_space) ? 'p' : 'm';
+    };
+    // One layer of ranks along y and z makes strips along x.
     run_all(lammps, {"units si", fmt::format("dimension {}", dimension),
-                     in_space ? "boundary m m m" : "boundary m m p", "atom_style sphere",
-                     "processors * 1 1"});
+                     fmt::format("boundary {} {} {}", boundary(0), boundary(1), boundary(2)),
+                     "atom_style sphere", "processors * 1 1"});
     const double thick = 0.01 * std::max(size[0], size[1]);
     lammps.command(fmt::format("region domain block 0 {:.17g} 0 {:.17g} {:.17g} {:.17g}", size[0],
                                size[1], in_space ? 0.0 : -thick, in_space ? size[2] : thick));

@@ -12,15 +12,17 @@
 #include "granular_adapter/lammps/lammps_library.hpp"
 #include "granular_adapter/lammps/mass_classes.hpp"
 #include "granular_adapter/md/soft_law.hpp"
+#include "granular_adapter/nscd/problem/periodic_box.hpp"
 
 namespace turbidite::lammps {
 
 /// The fix that calls the host in every sub-step, after all contact forces.
 extern const char* const loads_fix;
 
-/// The box of the domain, which grows with the grains that leave it, divided among the ranks into
-/// strips along x.
-void declare_box(Library& lammps, int dimension, const Vec3& size, std::size_t types);
+/// The box of the domain, which along axes that do not repeat grows with the grains that leave it,
+/// divided among the ranks into strips along x.
+void declare_box(Library& lammps, int dimension, const Vec3& size, const nscd::PeriodicBox& period,
+                 std::size_t types);
 
 /// What grains carry from rank to rank (round_grains.hpp).
 void declare_properties(Library& lammps, int dimension);

@@ -104,7 +104,7 @@ class PairRecords {
         const int first = index_.at(first_tag), second = index_.at(second_tag);
         const GrainId ids[] = {grains_.id(first), grains_.id(second)};
         const double* radius = lammps_.atoms<double*>("radius");
-        const double r = radius[first], overlap = r + radius[second] - pair.distance;
+        const double overlap = radius[first] + radius[second] - pair.distance;
         // `apart` and `force` are of the first grain. If it is a, both are turned: the normal goes
         // from a to b, and the force is that on b.
         const double sense = ids[0] < ids[1] ? -1.0 : 1.0;  // of b
@@ -113,8 +113,9 @@ class PairRecords {
         record.b = std::max(ids[0], ids[1]);
         record.normal = (sense / pair.distance) * pair.apart;
         record.branch = sense * pair.apart;
-        // The middle of the overlap.
-        record.point = centre(lammps_, first) - ((r - 0.5 * overlap) / pair.distance) * pair.apart;
+        // The middle of the overlap, beside b where the two meet across a cyclic side.
+        const int b = sense > 0.0 ? first : second;
+        record.point = grains_.centre(b) - (radius[b] - 0.5 * overlap) * record.normal;
         fill(record, sense * pair.force, overlap, friction_, window_);
         return record;
     }
@@ -167,8 +168,8 @@ std::vector<ContactRecord> touching(const Library& lammps, const RoundGrains& gr
         ContactRecord record;
         record.wall = side_of(contact.point, grain, size);
         record.b = grains.id(i);
-        record.point = contact.point;
         record.branch = grain - contact.point;
+        record.point = grains.centre(i) - record.branch;
         record.normal = (1.0 / norm(record.branch)) * record.branch;
         fill(record, contact.force, contact.radius - norm(record.branch), friction, window);
         records.push_back(record);

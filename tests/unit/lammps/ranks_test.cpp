@@ -176,6 +176,27 @@ TEST(Ranks, TheNumberOfRanksChangesNothing) {
     }
 }
 
+// The grains of the last rank meet those of the first, and change places with them.
+TEST(Ranks, TheNumberOfRanksChangesNothingAcrossCyclicSides) {
+    Settings settings = box(true);
+    for (const char* side : {"domain.left", "domain.right"})
+        settings.set(side, std::string("cyclic"));
+    std::vector<GrainState> grains = heap();
+    for (GrainState& grain : grains) grain.position[0] += settings.real("run.size_x") - 6.5;
+    Party alone(MPI_COMM_SELF, settings, grains), together(MPI_COMM_WORLD, settings, grains);
+    for (std::int64_t n = 0; n < 60; ++n) {
+        alone.play(n, drag), together.play(n, drag);
+        expect_near(alone.sent(), together.sent(), 1e-10);
+        expect_near(alone.now(), together.now(), 1e-10);
+        if (testing::Test::HasFailure()) return;
+    }
+    std::int64_t across = 0;
+    for (const auto& [id, grain] : alone.now()) across += grain.position[0] < 3.0;
+    EXPECT_GT(across, 3);
+    EXPECT_EQ(alone.now().size(), grains.size());
+    EXPECT_EQ(together.total(together.contacts), alone.contacts);
+}
+
 TEST(Ranks, GrainsPastAFreeSideAreRemovedWhereverTheyAre) {
     Party alone(MPI_COMM_SELF, box(false), heap()), together(MPI_COMM_WORLD, box(false), heap());
     for (std::int64_t n = 0; n < 600; ++n) alone.play(n, no_fluid), together.play(n, no_fluid);
