@@ -176,13 +176,24 @@ TEST(Ranks, TheNumberOfRanksChangesNothing) {
     }
 }
 
-// The grains of the last rank meet those of the first, and change places with them.
-TEST(Ranks, TheNumberOfRanksChangesNothingAcrossCyclicSides) {
+Settings cyclic_box() {
     Settings settings = box(true);
     for (const char* side : {"domain.left", "domain.right"})
         settings.set(side, std::string("cyclic"));
+    return settings;
+}
+
+/// At the right side of that box, so that it falls across it.
+std::vector<GrainState> heap_at_the_seam() {
     std::vector<GrainState> grains = heap();
-    for (GrainState& grain : grains) grain.position[0] += settings.real("run.size_x") - 6.5;
+    for (GrainState& grain : grains) grain.position[0] += cyclic_box().real("run.size_x") - 6.5;
+    return grains;
+}
+
+// The grains of the last rank meet those of the first, and change places with them.
+TEST(Ranks, TheNumberOfRanksChangesNothingAcrossCyclicSides) {
+    const Settings settings = cyclic_box();
+    const std::vector<GrainState> grains = heap_at_the_seam();
     Party alone(MPI_COMM_SELF, settings, grains), together(MPI_COMM_WORLD, settings, grains);
     for (std::int64_t n = 0; n < 60; ++n) {
         alone.play(n, drag), together.play(n, drag);
@@ -205,14 +216,22 @@ TEST(Ranks, GrainsPastAFreeSideAreRemovedWhereverTheyAre) {
     EXPECT_EQ(together.now().size(), heap().size() - std::size_t(together.total(together.removed)));
 }
 
-TEST(Ranks, ARestoredRunGoesOn) {
-    Party whole(MPI_COMM_WORLD, box(true), heap()), second(MPI_COMM_WORLD, box(true), heap());
+void expect_to_go_on(const Settings& settings, const std::vector<GrainState>& grains) {
+    Party whole(MPI_COMM_WORLD, settings, grains), second(MPI_COMM_WORLD, settings, grains);
     for (std::int64_t n = 0; n < 20; ++n) whole.play(n, drag);
     second.adapter().restore(whole.adapter().save());
     for (std::int64_t n = 20; n < 40; ++n) {
         whole.play(n, drag), second.play(n, drag);
         expect_near(whole.now(), second.now(), 1e-11);
     }
+}
+
+TEST(Ranks, ARestoredRunGoesOn) {
+    expect_to_go_on(box(true), heap());
+}
+
+TEST(Ranks, ARestoredRunGoesOnAcrossCyclicSides) {
+    expect_to_go_on(cyclic_box(), heap_at_the_seam());
 }
 
 // A grain flies through the left wall: the rank that owns it refuses to go on. The others would
