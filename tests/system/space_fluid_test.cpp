@@ -58,35 +58,61 @@ TEST_F(SpaceFluid, SpheresSettleOnTheFloor) {
     EXPECT_TRUE(std::filesystem::exists(scratch.path() / "run/fluid/6/U"));
 }
 
-// Two that spin about different axes, so that turns do not commute, and meet; one that falls alone.
-// While nothing touches, springs and contact dynamics get the same velocities from the liquid.
-TEST_F(SpaceFluid, SpheresSinkTheSameWithSpringsAndCollide) {
-    scratch.write("grains.csv",
-                  "id,x,y,z,vx,vz,wx,wy,wz\n1,1.45,2.5,2.0,1,0,2,1,0\n2,2.6,2.6,2.1,-1,0,0,2,1\n"
-                  "3,2.0,4.2,3.2,0,0.4,1,0,2\n");
-    const std::string words =
-        "run case.yaml --set grains.file=grains.csv --set time.end=1 --set output.interval=0.1"
-        " --set fluid.program=box --set fluid.splitting=marchuk-yanenko --set coupling.scheme=split"
-        " --set domain.left=wall --set domain.right=wall --set domain.front=wall"
-        " --set domain.back=wall --set contact.friction=0.2";
-    ASSERT_EQ(turbidite(words + " --out nscd").code, 0);
-    const auto touched = [&](const std::string& folder) {  // springs touch for less than an output
+/// Under `split` with each of the hosts: contact dynamics, and springs. While nothing touches, both
+/// get the same velocities from the liquid.
+class SpringsInALiquid : public SpaceFluid {
+ protected:
+    void expect_the_same(const std::string& grains, const std::string& sides,
+                         const std::vector<std::string>& hosts) {
+        scratch.write("grains.csv", "id,x,y,z,vx,vz,wx,wy,wz\n" + grains);
+        const std::string words =
+            "run case.yaml --set grains.file=grains.csv --set time.end=1 --set output.interval=0.1"
+            " --set fluid.program=box --set fluid.splitting=marchuk-yanenko"
+            " --set coupling.scheme=split --set contact.friction=0.2" +
+            sides;
+        ASSERT_EQ(turbidite(words + " --out nscd").code, 0);
+        const Columns rigid = history("nscd");
+        EXPECT_TRUE(touched("nscd"));
+        for (const std::string& host : hosts) {
+            const Answer answer =
+                turbidite(words + " --out run --force --set grains.adapter=" + host);
+            ASSERT_EQ(answer.code, 0) << host << answer.err;
+            EXPECT_TRUE(touched("run")) << host;
+            expect_near(history("run"), rigid, host);
+        }
+    }
+
+ private:
+    // Springs touch for less than an output.
+    bool touched(const std::string& folder) const {
         const auto record = nlohmann::json::parse(text(scratch.path() / folder / "run.json"));
         return record["maxima"]["penetration"].get<double>() > 0.0;
-    };
-    const Columns rigid = history("nscd");
-    EXPECT_TRUE(touched("nscd"));
-    for (const std::string adapter : {"standalone-md", "lammps-md", "yade-md"}) {
-        const Answer answer =
-            turbidite(words + " --out " + adapter + " --set grains.adapter=" + adapter);
-        ASSERT_EQ(answer.code, 0) << adapter << answer.err;
-        const Columns springs = history(adapter);
-        EXPECT_TRUE(touched(adapter)) << adapter;
+    }
+
+    static void expect_near(const Columns& springs, const Columns& rigid, const std::string& host) {
         for (const char* name : {"mean_velocity_x", "mean_velocity_y", "mean_velocity_z"})
             for (std::size_t row = 0; row < rigid.at(name).size(); ++row)
                 EXPECT_NEAR(springs.at(name)[row], rigid.at(name)[row], row < 3 ? 1e-6 : 0.02)
-                    << adapter << ", " << name << " in row " << row;
+                    << host << ", " << name << " in row " << row;
     }
+};
+
+// Two that spin about different axes, so that turns do not commute, and meet; one that falls alone.
+TEST_F(SpringsInALiquid, SinkTheSameAndCollide) {
+    expect_the_same(
+        "1,1.45,2.5,2.0,1,0,2,1,0\n2,2.6,2.6,2.1,-1,0,0,2,1\n"
+        "3,2.0,4.2,3.2,0,0.4,1,0,2\n",
+        " --set domain.left=wall --set domain.right=wall --set domain.front=wall"
+        " --set domain.back=wall",
+        {"standalone-md", "lammps-md", "yade-md"});
+}
+
+// The same two half a box farther, and the third through the back.
+TEST_F(SpringsInALiquid, CollideAcrossCyclicSides) {
+    expect_the_same(
+        "1,3.45,2.5,2.0,1,0,2,1,0\n2,0.6,2.6,2.1,-1,0,0,2,1\n"
+        "3,2.0,4.2,3.8,0,0.4,1,0,2\n",
+        "", {"standalone-md", "lammps-md", "lammps-md --set grains.ranks=2"});
 }
 
 /// Two ranks of layers, with spheres on the border between them.
