@@ -12,6 +12,7 @@
 #include "coupler/protocol/files/whole_file.hpp"
 #include "coupler/protocol/run_values.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
+#include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/folder/run_on_disk.hpp"
 #include "launcher/job/folder/set_aside.hpp"
@@ -119,6 +120,14 @@ void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const 
                       fmt::format("These keys may change: {}. For all others start a new run, with "
                                   "--from for its grains.",
                                   fmt::join(readable_keys(), ", ")));
+    const std::int64_t ranks = resolved.settings.integer("grains.ranks");
+    if (ranks != std::ssize(chosen.manifest.grains) &&
+        !grains_adapter(resolved.settings).resumes_on_other_ranks)
+        throw refused(folder.root,
+                      fmt::format("cannot go on with grains.ranks = {}: {} reads its state on as "
+                                  "many ranks as saved it",
+                                  ranks, resolved.settings.text("grains.adapter")),
+                      fmt::format("Use grains.ranks = {}.", chosen.manifest.grains.size()));
     const std::int64_t windows = resolved.settings.integer("run.windows");
     // The same end is allowed: it is found out later that all is done.
     if (windows < chosen.manifest.windows)

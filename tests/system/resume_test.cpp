@@ -154,6 +154,20 @@ TEST_F(Resume, MolecularDynamicsGoesOnUpToTheOrderOfSums) {
         EXPECT_LT(difference(one, two, column), 1e-9) << column;
 }
 
+TEST_F(Resume, LammpsGoesOnOnAsManyRanksOnly) {
+    scratch.write("case.yaml", dry_case);
+    play(
+        "run case.yaml --out parts --set time.end=1 --set grains.adapter=lammps-md"
+        " --set grains.ranks=2");
+    const Answer answer = turbidite("resume parts --set time.end=2 --set grains.ranks=1");
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_SAYS(answer.err,
+                "cannot go on with grains.ranks = 1: lammps-md reads its state on as many ranks "
+                "as saved it");
+    EXPECT_SAYS(answer.err, "Use grains.ranks = 2");
+    play("resume parts --set time.end=2");  // the folder is as it was
+}
+
 struct OtherRanks {
     const char* name;
     const char* changes;

@@ -27,6 +27,7 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
 
 GrainsAdapter on_ranks_in_space(GrainsAdapter adapter) {
     adapter.most_ranks_in_space = any_number;
+    adapter.resumes_on_other_ranks = true;
     return adapter;
 }
 
@@ -37,6 +38,8 @@ GrainsAdapter external_program(const char* name, const char* help) {
     adapter.films = false;
     adapter.moved_grains = false;
     adapter.most_ranks = adapter.most_ranks_in_space = any_number;
+    // It may, and has to refuse it otherwise.
+    adapter.resumes_on_other_ranks = true;
     return adapter;
 }
 
