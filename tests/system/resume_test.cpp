@@ -155,10 +155,10 @@ TEST_F(Resume, MolecularDynamicsGoesOnUpToTheOrderOfSums) {
 }
 
 TEST_F(Resume, LammpsGoesOnOnAsManyRanksOnly) {
-    scratch.write("case.yaml", dry_case);
+    scratch.write("case.yaml", wet_case);
     play(
         "run case.yaml --out parts --set time.end=1 --set grains.adapter=lammps-md"
-        " --set grains.ranks=2");
+        " --set coupling.scheme=split --set grains.ranks=2");
     const Answer answer = turbidite("resume parts --set time.end=2 --set grains.ranks=1");
     EXPECT_EQ(answer.code, 2);
     EXPECT_SAYS(answer.err,
