@@ -44,10 +44,10 @@ def colour(view, name, source, array, colours, legend):
     return display
 
 
-def is_flat(source):
-    source.UpdatePipeline()
-    bounds = source.GetDataInformation().GetBounds()
-    return bounds[4] == bounds[5]
+def is_flat(grains):
+    """In the plane z is 0; in space the box begins there."""
+    grains.UpdatePipeline()
+    return grains.GetDataInformation().GetBounds()[4:] == (0.0, 0.0)
 
 
 def moved(source, distance):

@@ -87,6 +87,11 @@ class View(RunFolderTest):
         simple.Hide.assert_called_once()
         simple.Transform.assert_not_called()
 
+    def test_one_sphere_is_not_flat(self):
+        self.record(sphere=[])
+        self.write('fluid/slices/slices.pvd', '')
+        self.run_script((1, 1, 2, 2, 3, 3)).Transform.assert_not_called()
+
     def test_several_fluid_ranks(self):
         self.record(disc=[])
         self.write('fluid/fluid.foam', '')
