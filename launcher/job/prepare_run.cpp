@@ -228,8 +228,9 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
 }
 
 void add_view(const RunFolder& folder, const Programs& programs) {
-    // Not in the place of a grains.script of that name.
-    if (!fs::exists(folder.view())) fs::copy_file(programs.view(), folder.view());
+    if (fs::exists(folder.view())) return;  // a grains.script of that name
+    write_whole(folder.view(),
+                [&](std::ostream& out) { out << std::ifstream(programs.view()).rdbuf(); });
 }
 
 namespace {
