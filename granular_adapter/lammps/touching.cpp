@@ -169,6 +169,7 @@ std::vector<ContactRecord> touching(const Library& lammps, const RoundGrains& gr
         record.wall = side_of(contact.point, grain, size);
         record.b = grains.id(i);
         record.branch = grain - contact.point;
+        // LAMMPS' point belongs to its own centre, which may lie beyond a cyclic side.
         record.point = grains.centre(i) - record.branch;
         record.normal = (1.0 / norm(record.branch)) * record.branch;
         fill(record, contact.force, contact.radius - norm(record.branch), friction, window);

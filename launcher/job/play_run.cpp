@@ -50,11 +50,14 @@ bool has_output(const RunFolder& folder) {
 
 PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const LaunchSite& site) {
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
-    const auto [folder, lock] = own_run_folder(order, resolved.name);
-    const auto line = launch_arguments(resolved.settings, folder, site);
-    prepare_run(resolved, folder, line);
-    add_view(folder, site.programs);
-    return {folder, lock, line, rank_names(resolved.settings), resolved.settings};
+    return fill(resolved, own_run_folder(order, resolved.name), site);
+}
+
+PreparedRun fill(const ResolvedCase& resolved, const OwnFolder& own, const LaunchSite& site) {
+    const auto line = launch_arguments(resolved.settings, own.folder, site);
+    prepare_run(resolved, own.folder, line);
+    add_view(own.folder, site.programs);
+    return {own.folder, own.lock, line, rank_names(resolved.settings), resolved.settings};
 }
 
 JobOutcome play(const PreparedRun& prepared, const Programs& programs) {

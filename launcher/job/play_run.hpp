@@ -21,6 +21,9 @@ struct PreparedRun {
 /// folder is in the way.
 PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const LaunchSite& site);
 
+/// Fills a folder that is ours with everything that the job needs, and with what shows the run.
+PreparedRun fill(const ResolvedCase& resolved, const OwnFolder& own, const LaunchSite& site);
+
 /// Starts the job and waits; progress, outcome and report as the user of `turbidite run` meets
 /// them. The first SIGINT or SIGTERM asks the job to stop after its next window, the second kills
 /// it.

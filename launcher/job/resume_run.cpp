@@ -260,11 +260,8 @@ void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::in
 
 PreparedRun from_the_beginning(const ResolvedCase& resolved, const RunFolder& folder,
                                std::shared_ptr<RunLock> lock, const LaunchSite& site) {
-    const auto line = launch_arguments(resolved.settings, folder, site);
     fs::remove_all(folder.fluid());
-    prepare_run(resolved, folder, line);
-    add_view(folder, site.programs);
-    return {folder, std::move(lock), line, rank_names(resolved.settings), resolved.settings};
+    return fill(resolved, {folder, std::move(lock)}, site);
 }
 
 /// All windows of the case are done, and the coupler has said so.

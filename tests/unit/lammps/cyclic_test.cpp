@@ -10,11 +10,6 @@ namespace {
 
 constexpr double fine = std::numbers::pi / frequency / 1200.0;
 
-Settings cyclic(Settings settings, const char* one, const char* other) {
-    for (const char* side : {one, other}) settings.set(side, std::string("cyclic"));
-    return settings;
-}
-
 /// Head-on from both sides of the seam along an axis, `period` long; a is below it, b above.
 void expect_bounce(Scene& scene, int axis, double period) {
     bool met = false;

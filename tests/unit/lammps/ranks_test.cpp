@@ -177,16 +177,14 @@ TEST(Ranks, TheNumberOfRanksChangesNothing) {
 }
 
 Settings cyclic_box() {
-    Settings settings = box(true);
-    for (const char* side : {"domain.left", "domain.right"})
-        settings.set(side, std::string("cyclic"));
-    return settings;
+    return cyclic(box(true), "domain.left", "domain.right");
 }
 
 /// At the right side of that box, so that it falls across it.
 std::vector<GrainState> heap_at_the_seam() {
+    const double shift = cyclic_box().real("run.size_x") - 6.5;
     std::vector<GrainState> grains = heap();
-    for (GrainState& grain : grains) grain.position[0] += cyclic_box().real("run.size_x") - 6.5;
+    for (GrainState& grain : grains) grain.position[0] += shift;
     return grains;
 }
 

@@ -34,6 +34,12 @@ inline Settings soft_settings_in_space(double damping, double gravity) {
     return settings;
 }
 
+/// The same with two opposite sides joined.
+inline Settings cyclic(Settings settings, const char* one, const char* other) {
+    for (const char* side : {one, other}) settings.set(side, std::string("cyclic"));
+    return settings;
+}
+
 /// Of radius 0.5 and density 1.5.
 inline nscd::Body soft_sphere(GrainId id, const Vec3& place, const Vec3& velocity) {
     const auto shape = make_shape({"sphere", {}});

@@ -97,9 +97,8 @@ TEST(SoftSpheres, ThatMeetObliquelyKeepMomentumAndAngularMomentum) {
 // Across front and back they meet half-way: equal masses exchange their velocities, each appears on
 // the other side, and springs along the contact are kept while it does.
 TEST(SoftSpheres, MeetAcrossCyclicSides) {
-    Settings settings = soft_settings_in_space(0.0, 0.0);
-    for (const char* side : {"domain.front", "domain.back"})
-        settings.set(side, std::string("cyclic"));
+    const Settings settings =
+        cyclic(soft_settings_in_space(0.0, 0.0), "domain.front", "domain.back");
     SpaceScene scene(settings, {soft_sphere(1, {3.0, 5.0, 0.4}, {0.0, 0.0, -1.0}),
                                 soft_sphere(2, {3.0, 5.0, 11.3995}, {0.0, 0.0, 0.0})});
     int touching = 0;
@@ -118,9 +117,8 @@ TEST(SoftSpheres, MeetAcrossCyclicSides) {
 
 // One that crosses a side keeps its neighbours, and so the spring at the floor.
 TEST(SoftSpheres, RollAcrossCyclicSidesAsElsewhere) {
-    Settings settings = soft_settings_in_space(1.0, 1.0);
-    for (const char* side : {"domain.front", "domain.back"})
-        settings.set(side, std::string("cyclic"));
+    const Settings settings =
+        cyclic(soft_settings_in_space(1.0, 1.0), "domain.front", "domain.back");
     const double overlap = 1.0 / (frequency * frequency);
     const Vec3 inside{5.0, radius - overlap, 6.0}, near_side{9.0, radius - overlap, 11.99};
     SpaceScene scene(settings, {soft_sphere(1, inside, {0.0, 0.0, 0.3}),
