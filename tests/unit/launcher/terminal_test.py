@@ -3,6 +3,7 @@
 import fcntl
 import os
 import pty
+import select
 import struct
 import subprocess
 import sys
@@ -22,17 +23,17 @@ def printed(folder, *words, term='xterm'):
     fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack('HHHH', 24, COLUMNS, 0, 0))
     child = subprocess.Popen([PROGRAM, *words], stdin=its, stdout=its, stderr=its, cwd=folder,
                              env=dict(os.environ, TERM=term))
-    os.close(its)
     parts = []
+    ended = False
+    # Our own hold on the program's end keeps it open until all is read: a reader that the closing overtakes gets EIO
+    # in the place of the last lines.
     while True:
-        try:
-            part = os.read(ours, 65536)
-        except OSError:  # the other end is closed
+        if select.select([ours], [], [], 0.05)[0]:
+            parts.append(os.read(ours, 65536))
+        elif ended:
             break
-        if not part:
-            break
-        parts.append(part)
-    child.wait()
+        ended = child.poll() is not None
+    os.close(its)
     os.close(ours)
     return b''.join(parts).decode().replace('\r\n', '\n')
 
@@ -64,7 +65,7 @@ class Terminal(unittest.TestCase):
                             (['resume', 'nowhere'], 'nowhere'), (['compare', 'nowhere'], 'at least two'),
                             (['study', str(CONFIGS / 'grain-codes.yaml'), '--dry-run', '--out', 'study'], 'lammps-md')):
             text = printed(self.folder, *words)
-            self.assertIn(said, text)
+            self.assertIn(said, text, words)
             self.assertEqual([line for line in text.split('\n') if breakable(line)], [], words)
 
     def test_a_terminal_without_escapes_gets_none(self):
