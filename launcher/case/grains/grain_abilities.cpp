@@ -10,6 +10,7 @@
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/scene/mesh_rows.hpp"
+#include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 
@@ -62,6 +63,21 @@ std::vector<GrainRule> rules_of_adapter(const GrainsAdapter& adapter, const Star
              or_another_adapter("Use motion = free",
                                 [](const GrainsAdapter& a) { return a.moved_grains; })});
     return rules;
+}
+
+/// What the laws of contact do not hold for.
+std::vector<GrainRule> rules_of_contact(const Settings& settings, const StartGrains& start,
+                                        const GrainForms& forms) {
+    const std::string key = positive_coefficient(settings, "rolling_friction");
+    // Generated grains have the shape of a key, which contradicts this one.
+    if (key.empty() || start.source.lines.empty()) return {};
+    return {
+        {[&forms](const PlacedGrain& g) { return !forms.forms[g.shape].record.vertices.empty(); },
+         [](const PlacedGrain&) { return std::string("its shape has corners"); },
+         fmt::format("Rolling resistance is for round grains, but {} = {}: polygons need none, "
+                     "since their faces resist rolling.",
+                     key, settings.text(key)),
+         "Use 0, or round grains."}};
 }
 
 /// The last height with equal rows, where grains have to stay below it.
@@ -144,6 +160,8 @@ CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
                              const GrainForms& forms) {
     const GrainsAdapter& adapter = grains_adapter(settings);
     std::vector<GrainRule> rules = rules_of_adapter(adapter, start, forms);
+    for (GrainRule& rule : rules_of_contact(settings, start, forms))
+        rules.push_back(std::move(rule));
     if (settings.flag("fluid.enabled"))
         for (GrainRule& rule : rules_of_fluid(settings)) rules.push_back(std::move(rule));
     CaseProblems problems;

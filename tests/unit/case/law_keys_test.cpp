@@ -96,6 +96,12 @@ TEST_F(LawKeys, RollingResistanceNeedsDiscs) {
     EXPECT_SAYS(refusal({"contact.materials.steel.rolling_friction=0.1", "grains.shape=triangle"}),
                 "but contact.materials.steel.rolling_friction = 0.1: polygons need none");
     EXPECT_EQ(refusal({"contact.materials.steel.rolling_friction=0.1"}), "");
+    folder.write("mixed.csv", "id,x,y,shape\n4,3,3,disc\n7,6,3,triangle\n");
+    const std::string mixed =
+        refusal({"contact.rolling_friction=0.1", "grains.count=2", "grains.file=mixed.csv"});
+    EXPECT_SAYS(mixed, "mixed.csv line 3: grain 7: its shape has corners");
+    EXPECT_SAYS(mixed, "but contact.rolling_friction = 0.1");
+    EXPECT_EQ(refusal({"grains.count=2", "grains.file=mixed.csv"}), "");
 }
 
 TEST_F(LawKeys, WhatHasNoEffectIsNoted) {
