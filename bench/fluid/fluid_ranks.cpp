@@ -28,12 +28,6 @@ std::vector<Record> of_all_ranks(const std::vector<Record>& records) {
     return result;
 }
 
-/// Distance from its surface within which a grain matters to a rank: 16 cells, more than the range
-/// of any stencil or rule of points, so that no result depends on it.
-double margin(const Settings& settings) {
-    return 16.0 * settings.real("run.diameter") / settings.real("fluid.cells_per_diameter");
-}
-
 }  // namespace
 
 FluidRanks::FluidRanks(bool parallel, int* argc, char*** argv) {
@@ -47,7 +41,7 @@ void FluidRanks::initialise(FoamAdapter& fluid, const Settings& settings,
     // This world has no other programs, so OpenFOAM may use it directly.
     if (mpi_) fluid.share(MPI_Comm_c2f(MPI_COMM_WORLD));
     const Box box = fluid.initialise(settings, shapes);
-    if (mpi_) plan_.emplace(std::vector<Box>{box}, margin(settings), Vec3{});
+    if (mpi_) plan_.emplace(std::vector<Box>{box}, Vec3{});
 }
 
 std::vector<GrainState> FluidRanks::here(const std::vector<GrainState>& grains) const {

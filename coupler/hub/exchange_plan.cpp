@@ -14,18 +14,18 @@
 namespace turbidite {
 namespace {
 
-// Does [centre - reach, centre + reach] meet [lower, upper], directly or as a periodic image?
-bool meets(double centre, double reach, double lower, double upper, double period) {
-    const auto overlaps = [&](double c) { return c + reach >= lower && c - reach <= upper; };
+// Does [centre - radius, centre + radius] meet [lower, upper], directly or as a periodic image?
+bool meets(double centre, double radius, double lower, double upper, double period) {
+    const auto overlaps = [&](double c) { return c + radius >= lower && c - radius <= upper; };
     return overlaps(centre) ||
            (period > 0.0 && (overlaps(centre - period) || overlaps(centre + period)));
 }
 
-// The cube around the sphere of R + margin against the box: some grains too many near corners, none
+// The cube around the grain's sphere against the box: some grains too many near corners, none
 // too few.
-bool touches(const GrainState& grain, const Box& box, double margin, const Vec3& period) {
+bool touches(const GrainState& grain, const Box& box, const Vec3& period) {
     for (int axis = 0; axis < 3; ++axis)
-        if (!meets(grain.position[axis], grain.radius + margin, box.lower[axis], box.upper[axis],
+        if (!meets(grain.position[axis], grain.radius, box.lower[axis], box.upper[axis],
                    period[axis]))
             return false;
     return true;
@@ -103,8 +103,8 @@ ContactReport report_of(const std::vector<Motion>& shares) {
 
 }  // namespace
 
-ExchangePlan::ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 period)
-    : boxes_(std::move(fluid_boxes)), margin_(margin), period_(period) {}
+ExchangePlan::ExchangePlan(std::vector<Box> fluid_boxes, Vec3 period)
+    : boxes_(std::move(fluid_boxes)), period_(period) {}
 
 Motion ExchangePlan::gather(std::vector<Motion> shares) {
     auto contacts = all_contacts(shares);
@@ -137,7 +137,7 @@ std::vector<MotionShare> ExchangePlan::by_place(const Motion& motion) const {
     for (std::size_t at = 0; at < motion.grains.size(); ++at)
         // Places, not copies: a grain near a border goes to every rank that needs it.
         for (std::size_t rank = 0; rank < boxes_.size(); ++rank)
-            if (touches(motion.grains[at], boxes_[rank], margin_, period_))
+            if (touches(motion.grains[at], boxes_[rank], period_))
                 routed[rank].places.push_back(static_cast<std::uint32_t>(at));
     return routed;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Which rank needs which grains. Grains ranks own grains by id; a fluid rank needs every grain
-// whose bounding sphere plus a margin touches its box. Sized by count, never by the largest id;
+// whose bounding sphere touches its box. Sized by count, never by the largest id;
 // grains may appear, vanish and migrate between windows. No MPI here: the plan sorts records,
 // channels carry them.
 #pragma once
@@ -15,9 +15,8 @@ namespace turbidite {
 
 class ExchangePlan {
  public:
-    /// `margin` [m]: how far beyond a grain's surface the fluid still needs it (stencils of its
-    /// points). `period` [m] per axis: 0 where the domain is not cyclic.
-    ExchangePlan(std::vector<Box> fluid_boxes, double margin, Vec3 period);
+    /// `period` [m] per axis: 0 where the domain is not cyclic.
+    ExchangePlan(std::vector<Box> fluid_boxes, Vec3 period);
 
     /// Merges what the grains ranks sent into one list and remembers which rank owns which grain.
     /// Those of several ranks are in the order of their ids, so that sums over grains do not depend
@@ -47,7 +46,6 @@ class ExchangePlan {
     [[noreturn]] void refuse_missing(const std::vector<bool>& answered) const;
 
     std::vector<Box> boxes_;
-    double margin_;
     Vec3 period_;
     GrainIndex index_;        ///< of the last `gather`
     std::vector<int> owner_;  ///< rank, by place in index_

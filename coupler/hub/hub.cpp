@@ -20,12 +20,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double farewell_limit = 30.0;
 constexpr double farewell_limit_after_stall = 2.0;
 
-// A fluid rank must know every grain that affects one of its points or cells. One of its cells may
-// be in the stencil of a surface point up to 1.5 cells outside its box (rule 6 of
-// multiplier/plane/collocation_points.hpp), and whether that point is kept depends on grains within
-// one point spacing of it, at most 4 cells (rules 2 and 3): 5.5 cells, plus a safety margin.
-constexpr double stencil_cells = 7.0;
-
 // Followed by the wait-for table; the launcher looks for it (launcher/job/job_outcome.cpp).
 const std::string end_from_outside = "ended from outside; until then";
 
@@ -248,13 +242,12 @@ void Hub::start() {
     std::vector<Box> boxes;
     if (fluid_) {
         watch_.wait_for(*fluid_, Kind::domain);
-        // Which part of the box each fluid rank has: needed to route the first grains.
+        // Where each fluid rank must know the grains: needed to route the first ones.
         boxes = fluid_->take<Box>(Kind::domain);
         const Arrival arrival(*fluid_, Kind::domain, -1);
         for (int rank = 0; rank < fluid_->ranks(); ++rank) arrival.check(rank, boxes[rank]);
     }
-    // The margin [m]: stencil_cells of the largest cells that grains can reach.
-    plan_.emplace(std::move(boxes), stencil_cells * settings_.cell, settings_.run.period);
+    plan_.emplace(std::move(boxes), settings_.run.period);
     checkpoints_.meet_participants();
     Cast everybody = cast();
     const Capabilities& can = grains_.hello(0).capabilities;

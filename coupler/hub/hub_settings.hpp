@@ -21,7 +21,6 @@ struct HubSettings {
     double stall_hard = 0.0;   ///< limits.stall_hard: it ends the run [s]
     double penetration = 0.0;  ///< limits.penetration [D]
     BalanceLimits grain_balance, fluid_balance;
-    double cell = 0.0;           ///< edge of a fluid cell; 0 when dry [m]
     bool users_program = false;  ///< moves the grains, about which no key is known
     bool springs = false;        ///< between grains, made by contact.md_* keys
 };

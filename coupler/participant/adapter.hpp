@@ -120,8 +120,9 @@ class FluidAdapter {
     /// As of GrainsAdapter.
     virtual Hello describe() const = 0;
 
-    /// Reads the fluid case; returns the box of this rank. The boxes of all ranks cover the domain:
-    /// a rank gets the grains near its box, and answers for those whose centre is in it.
+    /// Reads the fluid case; returns where this rank must know the grains. The parts of all ranks
+    /// cover the domain: a rank gets the grains that touch its box, and answers for those whose
+    /// centre is in its own part.
     virtual Box initialise(const Settings& settings, const ShapeTable& shapes) = 0;
 
     /// Steps 1 to 3: degenerate Stokes problem, transport, viscosity. Begins the window; under

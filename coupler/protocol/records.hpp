@@ -205,7 +205,8 @@ struct Kicks {
     FluidReport report;
 };
 
-/// The part of space that a fluid rank is responsible for [m].
+/// Where a fluid rank must know every grain [m]: its own part of space, and as far beyond it as its
+/// stencils reach.
 struct Box {
     Vec3 lower{};  ///< corner
     Vec3 upper{};  ///< opposite corner

@@ -6,6 +6,7 @@
 #include "coupler/protocol/files/freed_memory.hpp"
 #include "fluid_adapter/box_app/box_state.hpp"
 #include "fluid_adapter/box_app/box_store.hpp"
+#include "fluid_adapter/domain/grain_reach.hpp"
 
 namespace turbidite {
 
@@ -28,7 +29,7 @@ Box BoxAdapter::initialise(const Settings& settings, const ShapeTable& shapes) {
     std::filesystem::create_directories(folder_);
     store_ = std::make_unique<BoxStore>(settings, ranks_, folder_);
     window_ = std::make_unique<FluidWindow>(*store_, settings, shapes);
-    return store_->box();
+    return with_reach(store_->box(), settings);
 }
 
 void BoxAdapter::save_to(PieceWriter& file) const {

@@ -5,6 +5,7 @@
 #include <sigFpe.H>
 
 #include "coupler/protocol/files/freed_memory.hpp"
+#include "fluid_adapter/domain/grain_reach.hpp"
 #include "fluid_adapter/foam_app/foamErrors.hpp"
 #include "fluid_adapter/foam_app/foamStore.hpp"
 #include "fluid_adapter/foam_app/savedState.hpp"
@@ -50,8 +51,9 @@ Box FoamAdapter::initialise(const Settings& settings, const ShapeTable& shapes) 
     });
     // `false`: of this rank's part of the mesh, not reduced over the ranks
     const Foam::boundBox bounds(store_->fields().mesh.points(), false);
-    return {{bounds.min().x(), bounds.min().y(), bounds.min().z()},
-            {bounds.max().x(), bounds.max().y(), bounds.max().z()}};
+    return with_reach({{bounds.min().x(), bounds.min().y(), bounds.min().z()},
+                       {bounds.max().x(), bounds.max().y(), bounds.max().z()}},
+                      settings);
 }
 
 FluidRank FoamAdapter::of_this_rank() const {

@@ -23,10 +23,10 @@ Kick kick(GrainId id) {
     return k;
 }
 
-// Two fluid ranks share [0, 10]; a grain at 4.8 with radius 0.5 touches both, one at 4.2 and margin
-// 0.2 only the left one (4.2 + 0.7 < 5).
+// Two fluid ranks share [0, 10] and look 0.2 further; a grain at 4.8 with radius 0.5 touches both
+// boxes, one at 4.2 only the left one (4.2 + 0.5 < 4.8).
 TEST(ExchangePlan, AGrainGoesToEveryFluidRankItTouches) {
-    const ExchangePlan plan({{{0, -1, -1}, {5, 1, 1}}, {{5, -1, -1}, {10, 1, 1}}}, 0.2, {});
+    const ExchangePlan plan({{{-0.2, -1, -1}, {5.2, 1, 1}}, {{4.8, -1, -1}, {10.2, 1, 1}}}, {});
     const Motion motion{{grain(1, 4.8), grain(2, 4.2), grain(3, 9.0)}, {}};
     const auto routed = plan.by_place(motion);
     EXPECT_EQ(routed[0].places, (std::vector<std::uint32_t>{0, 1}));
@@ -35,13 +35,13 @@ TEST(ExchangePlan, AGrainGoesToEveryFluidRankItTouches) {
 
 // Period 10: the grain at 9.8 also touches the left rank, as its image at -0.2.
 TEST(ExchangePlan, PeriodicImagesAreRouted) {
-    const ExchangePlan plan({{{0, -1, -1}, {5, 1, 1}}, {{5, -1, -1}, {10, 1, 1}}}, 0.0, {10, 0, 0});
+    const ExchangePlan plan({{{0, -1, -1}, {5, 1, 1}}, {{5, -1, -1}, {10, 1, 1}}}, {10, 0, 0});
     const Motion motion{{grain(1, 9.8)}, {}};
     EXPECT_EQ(plan.by_place(motion)[0].places.size(), 1u);
 }
 
 TEST(ExchangePlan, PlacesAreFoundAnewOnlyWhenGrainsMigrateAppearOrVanish) {
-    ExchangePlan plan({}, 0.0, {});
+    ExchangePlan plan({}, {});
     const Motion one{{grain(1, 0)}, {}}, two{{grain(2, 1)}, {}}, none{},
         both{{grain(1, 0), grain(2, 1)}, {}};
     for (int window = 0; window < 3; ++window) plan.gather({one, two});
@@ -57,7 +57,7 @@ TEST(ExchangePlan, PlacesAreFoundAnewOnlyWhenGrainsMigrateAppearOrVanish) {
 }
 
 TEST(ExchangePlan, KicksReturnToTheOwnersForAnyIds) {
-    ExchangePlan plan({}, 0.0, {});
+    ExchangePlan plan({}, {});
     const GrainId huge = GrainId{1} << 60;  // ids are identifiers, not array indices
     plan.gather({{{grain(huge, 0)}, {}}, {{grain(-3, 1), grain(7, 2)}, {}}});
     const auto routed = plan.by_owner(std::vector{kick(7), kick(huge), kick(-3)});
@@ -68,7 +68,7 @@ TEST(ExchangePlan, KicksReturnToTheOwnersForAnyIds) {
 
 // std::max(0, nan) is 0: the ledger would not notice.
 TEST(ExchangePlan, AReportThatIsNotANumberStaysOne) {
-    ExchangePlan plan({}, 0.0, {});
+    ExchangePlan plan({}, {});
     std::vector<Motion> shares(2);
     shares[0].report.max_penetration = std::nan("");
     shares[1].report.max_penetration = 0.1;
@@ -85,7 +85,7 @@ ContactRecord contact(GrainId a, GrainId b, int feature = 0) {
 
 // The list of contacts is the same for any distribution of the grains.
 TEST(ExchangePlan, ContactsAreGatheredInOneOrder) {
-    ExchangePlan plan({}, 0.0, {});
+    ExchangePlan plan({}, {});
     ContactRecord floor = contact(77, 2);  // the id of a has no meaning at a wall
     floor.wall = 2;
     const std::vector<ContactRecord> left = {floor, contact(1, 2, 1), contact(1, 2)};
@@ -101,7 +101,7 @@ TEST(ExchangePlan, ContactsAreGatheredInOneOrder) {
 
 // An adapter without a residual leaves it to the others; if no adapter has one, it stays empty.
 TEST(ExchangePlan, EmptyMeasuresStayEmpty) {
-    ExchangePlan plan({}, 0.0, {});
+    ExchangePlan plan({}, {});
     std::vector<Motion> shares(2);
     shares[1].report.quad = 0.25;
     const ContactReport report = plan.gather(shares).report;
@@ -110,7 +110,7 @@ TEST(ExchangePlan, EmptyMeasuresStayEmpty) {
 }
 
 TEST(ExchangePlan, MissingDuplicateAndUnknownAnswersAreRefused) {
-    ExchangePlan plan({}, 0.0, {});
+    ExchangePlan plan({}, {});
     plan.gather({{{grain(1, 0), grain(2, 1)}, {}}});
     EXPECT_THROW(plan.by_owner(std::vector{kick(1)}), PhysicsRefused);
     EXPECT_THROW(plan.by_owner(std::vector{kick(1), kick(2), kick(2)}), PhysicsRefused);
