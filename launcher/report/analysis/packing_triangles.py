@@ -63,4 +63,7 @@ def gradients(places, velocities):
     """(n, 2, 2) of the linear functions that take these values (n, 3, 2) at these places (n, 3, 2)."""
     edges = places[:, 1:] - places[:, :1]        # (n, 2, 2): edge, coordinate
     changes = velocities[:, 1:] - velocities[:, :1]  # (n, 2, 2): edge, component
-    return np.linalg.solve(edges, changes).transpose(0, 2, 1)
+    # Cramer's rule: numpy's solve may wake threads for each of thousands of such small systems.
+    (a, b), (c, d) = edges.transpose(1, 2, 0)
+    inverse = np.array([[d, -b], [-c, a]]).transpose(2, 0, 1) / (a * d - b * c)[:, None, None]
+    return (inverse @ changes).transpose(0, 2, 1)
