@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "fluid_adapter/box_app/array_store.hpp"
+#include "fluid_adapter/domain/grain_reach.hpp"
 #include "fluid_adapter/fluid_window/fluid_window.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "tests/physics/coupled_run.hpp"
