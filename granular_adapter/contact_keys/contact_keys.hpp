@@ -19,6 +19,12 @@ KeyGroup molecular_dynamics_keys();  ///< contact.md_*
 /// "contact.materials.steel.rolling_friction". Empty if there is none.
 std::string positive_coefficient(const Settings& settings, const std::string& coefficient);
 
+/// grains.shape is a disc or a sphere.
+bool shape_is_round(const Settings& settings);
+
+/// What is said of grains with corners; nothing where no key gives a rolling resistance.
+Ruling corners_do_not_roll(const Settings& settings);
+
 /// All groups in one table.
 KeyTable contact_key_table();
 

@@ -32,14 +32,7 @@ Ruling moreau_has_one_restitution(const Settings& s) {
 }
 
 Ruling only_discs_resist_rolling(const Settings& s) {
-    const bool round = is(s, "grains.shape", "disc") || is(s, "grains.shape", "sphere");
-    const std::string key = positive_coefficient(s, "rolling_friction");
-    if (round || key.empty()) return std::nullopt;
-    return Objection{
-        fmt::format("Rolling resistance is for round grains, but {} = {}: polygons need none, "
-                    "since their faces resist rolling.",
-                    key, s.text(key)),
-        "Use 0, or round grains."};
+    return shape_is_round(s) ? std::nullopt : corners_do_not_roll(s);
 }
 
 Ruling range_of_neighbours(const Settings& s) {
@@ -77,6 +70,20 @@ void law_notes(const Settings& s, std::vector<std::string>& notes) {
 }
 
 }  // namespace
+
+bool shape_is_round(const Settings& s) {
+    return is(s, "grains.shape", "disc") || is(s, "grains.shape", "sphere");
+}
+
+Ruling corners_do_not_roll(const Settings& s) {
+    const std::string key = positive_coefficient(s, "rolling_friction");
+    if (key.empty()) return std::nullopt;
+    return Objection{
+        fmt::format("Rolling resistance is for round grains, but {} = {}: polygons need none, "
+                    "since their faces resist rolling.",
+                    key, s.text(key)),
+        "Use 0, or round grains."};
+}
 
 KeyGroup contact_law_keys() {
     return {

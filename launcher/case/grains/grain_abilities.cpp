@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
@@ -66,18 +67,14 @@ std::vector<GrainRule> rules_of_adapter(const GrainsAdapter& adapter, const Star
 }
 
 /// What the laws of contact do not hold for.
-std::vector<GrainRule> rules_of_contact(const Settings& settings, const StartGrains& start,
-                                        const GrainForms& forms) {
-    const std::string key = positive_coefficient(settings, "rolling_friction");
-    // Generated grains have the shape of a key, which contradicts this one.
-    if (key.empty() || start.source.lines.empty()) return {};
+std::vector<GrainRule> rules_of_contact(const Settings& settings, const GrainForms& forms) {
+    const Ruling objection = corners_do_not_roll(settings);
+    // Of grains.shape its own rule has spoken.
+    if (!objection || !shape_is_round(settings)) return {};
     return {
         {[&forms](const PlacedGrain& g) { return !forms.forms[g.shape].record.vertices.empty(); },
          [](const PlacedGrain&) { return std::string("its shape has corners"); },
-         fmt::format("Rolling resistance is for round grains, but {} = {}: polygons need none, "
-                     "since their faces resist rolling.",
-                     key, settings.text(key)),
-         "Use 0, or round grains."}};
+         objection->allowed, objection->remedy}};
 }
 
 /// The last height with equal rows, where grains have to stay below it.
@@ -159,11 +156,13 @@ double least_density(const Settings& settings, double radius) {
 CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
                              const GrainForms& forms) {
     const GrainsAdapter& adapter = grains_adapter(settings);
-    std::vector<GrainRule> rules = rules_of_adapter(adapter, start, forms);
-    for (GrainRule& rule : rules_of_contact(settings, start, forms))
-        rules.push_back(std::move(rule));
-    if (settings.flag("fluid.enabled"))
-        for (GrainRule& rule : rules_of_fluid(settings)) rules.push_back(std::move(rule));
+    std::vector<GrainRule> rules;
+    const auto add = [&rules](std::vector<GrainRule> more) {
+        std::move(more.begin(), more.end(), std::back_inserter(rules));
+    };
+    add(rules_of_adapter(adapter, start, forms));
+    add(rules_of_contact(settings, forms));
+    if (settings.flag("fluid.enabled")) add(rules_of_fluid(settings));
     CaseProblems problems;
     for (const GrainRule& rule : rules) {
         const auto at = std::find_if(start.grains.begin(), start.grains.end(), rule.broken);

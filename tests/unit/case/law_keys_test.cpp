@@ -102,6 +102,11 @@ TEST_F(LawKeys, RollingResistanceNeedsDiscs) {
     EXPECT_SAYS(mixed, "mixed.csv line 3: grain 7: its shape has corners");
     EXPECT_SAYS(mixed, "but contact.rolling_friction = 0.1");
     EXPECT_EQ(refusal({"grains.count=2", "grains.file=mixed.csv"}), "");
+    folder.write("plain.csv", "id,x,y\n4,3,3\n7,6,3\n");
+    const std::string once = refusal({"contact.rolling_friction=0.1", "grains.count=2",
+                                      "grains.shape=triangle", "grains.file=plain.csv"});
+    EXPECT_SAYS(once, "grains.shape = triangle");
+    EXPECT_EQ(once.find("its shape has corners"), std::string::npos) << "one fault, told once";
 }
 
 TEST_F(LawKeys, WhatHasNoEffectIsNoted) {
