@@ -95,7 +95,7 @@ MEASURED = [
     Measured('run_out', 'Run-out', r'$(L - L_0)\,/\,L_0$', RELATIVE, of_found(deposit.deposit, 'run_out')),
     Measured('heap_height', 'Height of the heap', r'$H\,/\,D$', 'D', of_found(deposit.deposit, 'top')),
     Measured('heap_slope', 'Slope of the heap', DEGREES, '°', of_found(deposit.deposit, 'slope')),
-    Measured('slip_angle', 'Angle of the slip plane', DEGREES, '°', of_found(shear_band.shear_band, 'angle')),
+    Measured('slip_angle', 'Angle of the slip plane', DEGREES, '°', of_found(shear_band.shear_band, 'slip_angle')),
     Measured('quiescent_share', 'Grains at rest at half of the peak', 'share', RELATIVE,
              of_found(shear_band.shear_band, 'quiescent')),
     Measured('pore_change', f'Pores where δx/x₀ = {pores.AT:g}', r'$\delta V\,/\,V_0$', RELATIVE, pores.change_at),

@@ -39,10 +39,15 @@ class ShearBand:
         """The band is long, and falls to the side that is free."""
         return self.angle is not None and self.angle > 0.0
 
+    @property
+    def slip_angle(self):
+        """Degrees below the horizontal; None if the band is no slip plane."""
+        return self.angle if self.is_slip_plane else None
+
 
 @once_per_run
 def shear_band(run):
-    """When the mean velocity of an avalanche has risen to half of its peak; None if it has not slid."""
+    """When the mean velocity of an avalanche has risen to half of its peak; None if it has not slid, and in space."""
     found = moment(run)
     return None if found is None else band_of(found, coarse_grid.grid_over(run, CELL))
 
@@ -50,7 +55,7 @@ def shear_band(run):
 def moment(run):
     """The snapshot nearest to half of the peak, on the rise."""
     half = peaks.half_time(run)
-    if not run.is_avalanche() or half is None or 'domain.size' not in run.case:
+    if not run.is_avalanche() or run.in_space() or half is None or 'domain.size' not in run.case:
         return None
     there = [one for one in snapshots.snapshots(run) if one.time > 0.0]
     return min(there, key=lambda one: abs(one.time - half)) if there else None

@@ -283,7 +283,7 @@ def of_bands(runs, part):
 
 
 def slides_at_45(runs):
-    found = of_bands(runs, 'angle')
+    found = of_bands(runs, 'slip_angle')
     return (f'{spread(found)}° below the horizontal', bool(PLANE[0] <= np.mean(found) <= PLANE[1])) if found else None
 
 

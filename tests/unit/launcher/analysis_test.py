@@ -160,6 +160,7 @@ class SlipPlanes(unittest.TestCase):
         for angle, there in ((45.0, True), (None, False), (-30.0, False)):
             found = shear_band.ShearBand(1.0, None, None, None, None, angle, 2.0, 0.25)
             self.assertEqual(found.is_slip_plane, there)
+            self.assertEqual(found.slip_angle, angle if there else None)
             self.assertEqual('falls to the right' in shear_band.caption(found), there)
 
 
@@ -254,6 +255,8 @@ class ShearBands(unittest.TestCase):
         found = shear_band.shear_band(with_snapshots(run(**history), *shots))
         self.assertEqual(found.time, 2.0)
         self.assertAlmostEqual(found.angle, np.degrees(np.arctan(0.8 * np.tan(np.radians(25.0)))), delta=2.5)
+        in_space = run(case={'dimension': '3'}, **history)
+        self.assertIsNone(shear_band.shear_band(with_snapshots(in_space, *shots)))
 
     def test_uniform_shear_has_no_band_direction(self):
         places = lattice(12, 14)

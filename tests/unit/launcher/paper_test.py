@@ -57,7 +57,7 @@ def immersed(waits=lambda re, phi: 0.0 if phi < 0.8 else 60.0 * (phi - 0.8), par
 
 
 def band(angle, quiescent):
-    return type('Band', (), {'angle': angle, 'quiescent': quiescent})()
+    return type('Band', (), {'slip_angle': angle, 'quiescent': quiescent})()
 
 
 def probes(pressure):
