@@ -8,6 +8,7 @@
 
 #include "coupler/hub/handshake.hpp"
 #include "coupler/hub/schemes/exchanges.hpp"
+#include "coupler/protocol/files/run_files.hpp"
 #include "coupler/protocol/files/start_record.hpp"
 
 namespace turbidite {
@@ -20,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double farewell_limit = 30.0;
 constexpr double farewell_limit_after_stall = 2.0;
 
-// Followed by the wait-for table; the launcher looks for it (launcher/job/job_outcome.cpp).
+// Followed by the wait-for table.
 const std::string end_from_outside = "ended from outside; until then";
 
 double since(Clock::time_point start) {
@@ -234,6 +235,7 @@ void Hub::start() {
     if (case_.settings.has("output.timeline") && case_.settings.flag("output.timeline"))
         // In front of the first wait, so that the handshake is in the timeline too.
         watch_.set_timeline(&timeline_.emplace(files_.root, Role::coupler, 0));
+    watch_.leave_table(wait_table_file(files_.root));
     name_by_start_records();
     // All mismatches of all programs are refused here, before any of them gets its settings.
     shake_hands(links_, case_.settings, case_.shapes, order_, watch_);

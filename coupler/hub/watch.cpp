@@ -9,9 +9,31 @@
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
+namespace {
+
+constexpr std::size_t table_line = 512;  // bytes, longer than the line of any rank
+
+}  // namespace
 
 Watch::Watch(std::vector<ParticipantLink*> links, double soft, double hard, Print print)
     : links_(std::move(links)), soft_(soft), hard_(hard), print_(std::move(print)) {}
+
+void Watch::leave_table(const std::filesystem::path& file) {
+    std::size_t ranks = 0;
+    for (const ParticipantLink* link : links_) ranks += static_cast<std::size_t>(link->ranks());
+    table_ = std::make_unique<SurvivingText>(file, ranks * table_line);
+}
+
+// Of all participants, not only the one that is waited for: its partner's failure ends the wait.
+bool Watch::pump() {
+    bool any = false;
+    for (ParticipantLink* link : links_) any |= link->pump();
+    return any;
+}
+
+void Watch::keep_table() {
+    if (table_) table_->set(wait_for_table());
+}
 
 void Watch::wait_for(ParticipantLink& link, Kind kind) {
     double next_notice = soft_;
@@ -21,12 +43,11 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
     Patience patience;
     // Frames are looked for before every look at the clock, so that what has come is never called
     // late.
-    for (;; patience.wait(any_in_transit())) {
+    for (bool first = true;; first = false, patience.wait(any_in_transit())) {
         if (signal_ && *signal_) throw EndedFromOutside{};
-        // Of all participants, not only the one that is waited for: its partner's failure ends the
-        // wait.
-        for (ParticipantLink* other : links_) other->pump();
+        const bool any = pump();
         if (link.ready(kind)) break;
+        if (first || any) keep_table();
         if (patience.seconds() > hard_)
             throw Failure(ExitCode::stalled,
                           fmt::format("stalled: no \"{}\" from {} for {:.0f} s\n{}",

@@ -5,12 +5,15 @@
 #pragma once
 
 #include <csignal>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "coupler/hub/participant_link.hpp"
+#include "coupler/protocol/files/surviving_text.hpp"
 #include "coupler/protocol/timeline.hpp"
 
 namespace turbidite {
@@ -25,6 +28,10 @@ class Watch {
 
     /// Limits in seconds.
     Watch(std::vector<ParticipantLink*> links, double soft, double hard, Print print);
+
+    /// Keeps the wait-for table in this file from now on, so that it is there when this program is
+    /// killed in a wait.
+    void leave_table(const std::filesystem::path& file);
 
     /// Returns when every rank of `link` has delivered `kind`. Throws Failure: one reported by a
     /// participant, or `stalled`, which names the silent ranks.
@@ -44,12 +51,15 @@ class Watch {
 
  private:
     bool any_in_transit() const;
+    bool pump();
+    void keep_table();
 
     std::vector<ParticipantLink*> links_;
     double soft_, hard_;
     Print print_;
     const volatile std::sig_atomic_t* signal_ = nullptr;
     Timeline* timeline_ = nullptr;
+    std::unique_ptr<SurvivingText> table_;
     double waited_ = 0.0;
 };
 

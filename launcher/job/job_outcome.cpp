@@ -8,10 +8,12 @@
 #include <deque>
 #include <fstream>
 #include <regex>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "coupler/protocol/files/run_files.hpp"
+#include "coupler/protocol/files/surviving_text.hpp"
 #include "coupler/protocol/received.hpp"
 #include "launcher/job/folder/run_json.hpp"
 
@@ -124,14 +126,14 @@ std::filesystem::path log_of(const RunFolder& folder, const std::string& rank) {
     return std::filesystem::exists(own) ? own : folder.log(role);
 }
 
-/// What the coupler last saw of a rank: "was due to send "motion", window 5"; empty if unknown. The
-/// coupler, which mpirun ends with the others, has just had the time to write its wait-for table.
+/// What the coupler last saw of a rank: "was due to send "motion", window 5"; empty if unknown. Not
+/// from the coupler's log: mpirun ends the coupler with the others, often by SIGKILL at once.
 std::string phase_of(const RunFolder& folder, const std::string& rank) {
-    std::ifstream log(folder.log("coupler"));
+    std::istringstream table(read_surviving_text(wait_table_file(folder.root)));
     const std::regex state("^  " + rank + R"( \(host .*?, pid \d+\) (.*), for \d+ s$)");
     std::string phase;
     std::smatch match;
-    for (std::string line; std::getline(log, line);)
+    for (std::string line; std::getline(table, line);)
         if (std::regex_match(line, match, state)) phase = match[1];
     return std::regex_replace(std::regex_replace(phase, std::regex("^is "), "was "),
                               std::regex("^waits "), "waited ");

@@ -28,6 +28,10 @@ std::filesystem::path log_file(const std::filesystem::path& run, Role role, int 
     return run / "logs" / (role_name(role) + number + ".log");
 }
 
+std::filesystem::path wait_table_file(const std::filesystem::path& run) {
+    return run / "logs" / "waits";
+}
+
 bool write_first_end(const std::filesystem::path& run, const FirstEnd& end) {
     const std::string text =
         std::to_string(static_cast<int>(end.code)) + "\n" + end.who + "\n" + end.what + "\n";

@@ -31,6 +31,10 @@ bool write_first_end(const std::filesystem::path& run, const FirstEnd& end);
 /// Empty if nobody has written one. Mended (received.hpp), since any program may have written it.
 std::optional<FirstEnd> read_first_end(const std::filesystem::path& run);
 
+/// RUN/logs/waits: the coupler's last wait-for table (SurvivingText), for the launcher, which tells
+/// what the program that ended first was about to do.
+std::filesystem::path wait_table_file(const std::filesystem::path& run);
+
 /// A file in the run folder by which a user asks the run to stop in order.
 inline constexpr const char* stop_file = "STOP";
 /// The same, to write its output now.

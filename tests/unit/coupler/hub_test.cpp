@@ -9,6 +9,8 @@
 #include <set>
 #include <sstream>
 
+#include "coupler/protocol/files/run_files.hpp"
+#include "coupler/protocol/files/surviving_text.hpp"
 #include "tests/unit/coupler/loopback_job.hpp"
 
 namespace turbidite {
@@ -478,9 +480,10 @@ TEST(HubJoint, AnAcceptOutOfTurnIsRefused) {
 }
 
 // A constraint lost in the second round causes a stall, and the table shows what each participant
-// waits for.
+// waits for, in the message and in the file that is there even if the coupler is killed.
 TEST(HubJoint, AStallNamesTheRound) {
     const TestFolder folder("hub-joint-stall");
+    std::filesystem::create_directories(wait_table_file(folder.path()).parent_path());
     Job job = landing(0.2);
     job.settings.set("limits.stall_soft", 0.1);
     job.settings.set("limits.stall_hard", 0.4);
@@ -494,6 +497,11 @@ TEST(HubJoint, AStallNamesTheRound) {
          {"no \"response\" from fluid", "is due to send \"response\", window ", ", round 2, for",
           "waits for the coupler's \"kick\" or \"contact_input\", window "})
         EXPECT_NE(job.status.reason.find(part), std::string::npos) << job.status.reason;
+    const std::string left = read_surviving_text(wait_table_file(folder.path()));
+    for (const char* part :
+         {"fluid rank 0 (host ", "is due to send \"response\", window ", ", round 2, for",
+          "\n  grains rank 0 (host ", "waits for the coupler's \"kick\" or \"contact_input\""})
+        EXPECT_NE(left.find(part), std::string::npos) << left;
 }
 
 TEST(HubJoint, AResponseThatIsNotFiniteIsRefused) {

@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include "coupler/protocol/files/run_files.hpp"
+#include "coupler/protocol/files/surviving_text.hpp"
 #include "launcher/job/folder/run_json.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
@@ -71,13 +72,14 @@ TEST_F(Outcome, KilledOnRequest) {
     EXPECT_EQ(read_run_json(folder.record()).at("status"), "interrupted");
 }
 
-// logs/first_end, and the wait-for table that the coupler wrote when mpirun ended it.
+// logs/first_end, and the wait-for table that the coupler left behind.
 TEST_F(Outcome, NamesTheProgramThatEndedFirstWithPhaseAndLog) {
-    scratch.write("logs/coupler.log",
-                  "window 5\nended from outside; until then\n"
-                  "  fluid rank 0 (host vm, pid 12) is due to send \"kicks\", window 5, for 0 s\n"
-                  "  grains rank 0 (host vm, pid 13) waits for the coupler's \"kick\", window 5, "
-                  "for 0 s\n");
+    scratch.write("logs/coupler.log", "window 5\n");
+    SurvivingText(wait_table_file(scratch.path()), 1000)
+        .set(
+            "  fluid rank 0 (host vm, pid 12) is due to send \"kicks\", window 5, for 0 s\n"
+            "  grains rank 0 (host vm, pid 13) waits for the coupler's \"kick\", window 5, "
+            "for 0 s");
     scratch.write("history.csv", "step\n0\n");
     scratch.write("logs/fluid.log", "cannot open shared library\n");
     ASSERT_TRUE(write_first_end(scratch.path(),
