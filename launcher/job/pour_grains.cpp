@@ -11,6 +11,7 @@
 #include <optional>
 #include <sstream>
 
+#include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/case_hash.hpp"
 #include "launcher/case/files/run_folder.hpp"
@@ -126,7 +127,10 @@ fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
     }
     fmt::print("Pouring {} grains, in {}\n", pouring.population.size(), folder.root.string());
     std::fflush(stdout);
-    const std::int64_t ranks = best_grains_ranks(pouring.population.size());
+    // Discs are poured on one: on several they have other digits, and the packing must not depend
+    // on the machine.
+    const std::int64_t ranks =
+        in_space(pouring.settings) ? best_grains_ranks(pouring.population.size()) : 1;
     values.push_back(fmt::format("grains.ranks={}", ranks));
     pouring = load_case(resolved.file, values);
     fs::create_directories(folder.root.parent_path());

@@ -49,17 +49,20 @@ class ShippedAdapter : public AdapterTest, public ::testing::WithParamInterface<
     }
 };
 
+bool runs_on_ranks(const std::string& adapter) {
+    return adapter == "lammps-md" || adapter == "standalone-nscd";
+}
+
 TEST_P(ShippedAdapter, Conforms) {
     const std::string name = GetParam();
-    expect_to_conform(judge("--adapter " + name), name == "lammps-md");
+    expect_to_conform(judge("--adapter " + name), runs_on_ranks(name));
 }
 
 using ShippedAdapterInSpace = ShippedAdapter;
 
 TEST_P(ShippedAdapterInSpace, Conforms) {
     const std::string name = GetParam();
-    expect_to_conform(judge("--dimension 3 --adapter " + name),
-                      name == "lammps-md" || name == "standalone-nscd");
+    expect_to_conform(judge("--dimension 3 --adapter " + name), runs_on_ranks(name));
 }
 
 // What the dimension changes: the liquid's kick, and contacts.

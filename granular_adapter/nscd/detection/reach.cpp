@@ -22,14 +22,6 @@ double speed_range(const std::vector<Twist>& twists) {
     return norm(high - low);
 }
 
-/// Largest speed of a corner about its own centre.
-double rim_speed(const Bodies& bodies, const std::vector<Twist>& twists) {
-    double fastest = 0.0;
-    for (std::size_t i = 0; i < twists.size(); ++i)
-        fastest = std::max(fastest, bodies.radius[i] * norm(twists[i].spin));
-    return fastest;
-}
-
 /// No place of a wall with ends is farther from its point than this.
 double farthest_end(const Wall& wall) {
     if (wall.form == WallForm::flat) return wall.half_length + wall.half_thickness;
@@ -75,12 +67,18 @@ double wall_speed(const std::vector<Wall>& walls, const Bodies& bodies) {
 
 }  // namespace
 
+double corner_speed(const Bodies& bodies, const std::vector<Twist>& twists) {
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < twists.size(); ++i)
+        fastest = std::max(fastest, bodies.radius[i] * norm(twists[i].spin));
+    return fastest;
+}
+
 double approach_bound(const Bodies& bodies, const std::vector<Wall>& walls,
-                      const std::vector<Twist>& twists, bool corners, double step) {
+                      const std::vector<Twist>& twists, double corners, double step) {
     // dt (|v_b - v_a| + R_a |omega_a| + R_b |omega_b| + |v_wall|), each at its largest. A round
     // body presents the same surface however it turns, so its spin does not count.
-    double speed = speed_range(twists);
-    if (corners) speed += 2.0 * rim_speed(bodies, twists);
+    const double speed = speed_range(twists) + 2.0 * corners;
     return step * (speed + wall_speed(walls, bodies));
 }
 

@@ -10,9 +10,13 @@
 
 namespace turbidite::nscd {
 
-/// An upper bound over all pairs of bodies, and of bodies and walls, for one step [m]. Rotation
-/// does not bring round bodies closer; `corners` tells that some bodies are not round.
+/// Largest speed of a corner about the centre of its body; one twist per body [m/s].
+double corner_speed(const Bodies& bodies, const std::vector<Twist>& twists);
+
+/// An upper bound over all pairs of bodies, and of bodies and walls, for one step [m]. `twists`:
+/// with the extremes of all velocities. Rotation does not bring round bodies closer; `corners`:
+/// corner_speed() where some are not round.
 double approach_bound(const Bodies& bodies, const std::vector<Wall>& walls,
-                      const std::vector<Twist>& twists, bool corners, double step);
+                      const std::vector<Twist>& twists, double corners, double step);
 
 }  // namespace turbidite::nscd

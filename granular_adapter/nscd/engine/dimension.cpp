@@ -26,4 +26,10 @@ void check_solver(int dimension, const std::string& name, const ContactSolver& s
                                     "\" is of the plane only; in space use nlgs");
 }
 
+void check_ranks(const std::string& name, const ContactSolver& solver) {
+    if (!solver.solves_on_ranks())
+        throw std::invalid_argument("contact solver \"" + name +
+                                    "\" works on one rank only; on several use nlgs");
+}
+
 }  // namespace turbidite::nscd

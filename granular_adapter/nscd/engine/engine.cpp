@@ -35,7 +35,8 @@ SurfaceTable surface_table(const EngineSettings& settings) {
     return SurfaceTable({only});
 }
 
-/// In space always by cells, on any number of ranks: it costs a few sweeps at most there.
+/// In space always by cells, on any number of ranks: it costs a few sweeps at most there. Ranks
+/// order by cells in the plane, too.
 ContactOrder contact_order(int dimension) {
     return dimension == 3 ? ContactOrder::cells : ContactOrder::top_down;
 }
@@ -80,9 +81,7 @@ StepReport Engine::step_from(const std::vector<Twist>& free, double dt) {
 }
 
 void Engine::share_with(RankExchange& ranks) {
-    if (!in_space())
-        throw std::invalid_argument(
-            "contacts in the plane are computed on one rank in this version: use grains.ranks: 1");
+    check_ranks(settings_.solver, *solver_);
     ranks_ = std::make_unique<RankDomain>(ranks);
 }
 
@@ -121,9 +120,11 @@ void Engine::check_periods() {
 
 /// How far surfaces can approach each other (reach.hpp), over all ranks.
 double Engine::bound(const std::vector<Twist>& twists, double dt) const {
-    if (!ranks_) return approach_bound(bodies_, walls_, twists, detection_.has_corners(), dt);
-    const std::vector<Twist> extremes = ranks_->extremes(twists);
-    return largest(ranks_->ranks(), approach_bound(bodies_, walls_, extremes, false, dt));
+    const double corners = detection_.has_corners() ? corner_speed(bodies_, twists) : 0.0;
+    if (!ranks_) return approach_bound(bodies_, walls_, twists, corners, dt);
+    RankExchange& ranks = ranks_->ranks();
+    return largest(ranks, approach_bound(bodies_, walls_, ranks_->extremes(twists),
+                                         largest(ranks, corners), dt));
 }
 
 /// Sets how far to look for contacts that may close within the step.
@@ -238,13 +239,14 @@ SolverResult Engine::solve(double dt) {
 }
 
 /// Updates the biases for the shortfalls at these velocities. Returns the largest change over the
-/// body's radius, among contacts that would end with an overlap.
+/// body's radius, among contacts of all ranks that would end with an overlap.
 double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
                           double dt) {
+    const Bodies& bodies = bodies_of_points();
     const std::vector<double> found =
-        gap_shortfalls({points_, problem_.contacts, bodies_, placed_walls_, velocities, dt},
+        gap_shortfalls({points_, problem_.contacts, bodies, placed_walls_, velocities, dt},
                        detection_.narrow_phase());
-    double largest = 0.0;
+    double change_of_any = 0.0;
     for (std::size_t k = 0; k < found.size(); ++k) {
         Contact& contact = problem_.contacts[k];
         // A corner that ends farther away than foreseen does no harm: only positive shortfalls
@@ -254,14 +256,14 @@ double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<doub
         const double u = contact_velocity(contact, velocities).n + contact.bias.n;
         // With b_n = (g - shortfall)/dt the gap will be dt u - change at the end of the step.
         if (dt * u < change)
-            largest =
-                std::max(largest, change / bodies_.radius[static_cast<std::size_t>(contact.b)]);
+            change_of_any = std::max(change_of_any,
+                                     change / bodies.radius[static_cast<std::size_t>(contact.b)]);
         // b_n = (g - wanted)/dt: the side is kept as much farther away as its turn will bring it
         // nearer.
         contact.bias.n -= change / dt;
         shortfalls[k] = wanted;
     }
-    return largest;
+    return ranks_ ? largest(ranks_->ranks(), change_of_any) : change_of_any;
 }
 
 void Engine::move(double dt) {
@@ -308,6 +310,7 @@ void Engine::follow_bodies() {
     if (!ranks_) return;
     // The host may have changed the own bodies; copies follow from their owners.
     std::copy(bodies_.position.begin(), bodies_.position.end(), present_.position.begin());
+    std::copy(bodies_.orientation.begin(), bodies_.orientation.end(), present_.orientation.begin());
     std::copy(bodies_.twist.begin(), bodies_.twist.end(), present_.twist.begin());
     ranks_->follow(present_);
 }

@@ -19,9 +19,10 @@
 // Hosts may overwrite bodies() freely between two calls. Results are bitwise reproducible and
 // depend only on the bodies and their order.
 //
-// Several engines, one per rank, can share a configuration in space (share_with): each has its own
-// bodies, which move to other ranks as they cross cells, and the results have the bits of one
-// engine with all of them. All ranks then make the same calls in the same order.
+// Several engines, one per rank, can share a configuration (share_with): each has its own bodies,
+// which move to other ranks as they cross cells. The results have the same bits on any number of
+// ranks; in space also those of one engine with all bodies, which orders contacts from the top down
+// in the plane. All ranks make the same calls in the same order.
 #pragma once
 
 #include <memory>
@@ -76,7 +77,7 @@ class Engine {
     Engine(const EngineSettings& settings, const ShapeTable& shapes, std::vector<Wall> walls);
 
     /// To be called before the first step; the exchange must outlive the engine. Throws
-    /// std::invalid_argument in the plane.
+    /// std::invalid_argument for a solver of one rank.
     void share_with(RankExchange& ranks);
 
     /// An array of the host with one entry per body, which goes with the bodies to other ranks.

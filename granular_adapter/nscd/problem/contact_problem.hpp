@@ -69,7 +69,7 @@ struct ContactProblem {
     /// Speeds that may have cancelled in v_free, beyond those left in it; their rounding remains
     /// [m/s].
     double cancelled = 0.0;
-    ContactCells cells = {};  ///< of the contacts; empty in the plane
+    ContactCells cells = {};  ///< of the contacts; empty on one rank in the plane
     /// Where other ranks have contacts of the same problem, then those of this rank are in phases.
     const RankPlan* ranks = nullptr;
     /// One per contact, or empty: no contact of this rank has a film.

@@ -114,8 +114,7 @@ void RankDomain::check_periods(const Bodies& own, const PeriodicBox& box) {
 }
 
 std::vector<Twist> RankDomain::extremes(const std::vector<Twist>& own) const {
-    // The bounding box of all velocities and zero, as in reach.cpp; ranks have round bodies only,
-    // whose spins do not bring surfaces closer.
+    // The bounding box of all velocities and zero, as in reach.cpp.
     Twist low, high;
     const auto extend = [&](const Twist& twist) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -262,6 +261,7 @@ void RankDomain::number_shared(const ParityGrid& grid, const Bodies& bodies) {
 void RankDomain::follow(Bodies& bodies) const {
     struct Place {
         Vec3 position;
+        Quaternion orientation;
         Twist twist;
     };
     std::vector<std::vector<Place>> lent;
@@ -270,13 +270,14 @@ void RankDomain::follow(Bodies& bodies) const {
         for (const std::int32_t i : of_rank) {
             const auto at = static_cast<std::size_t>(i);
             // No ids: both sides know the order from add_copies().
-            lent.back().push_back({bodies.position[at], bodies.twist[at]});
+            lent.back().push_back({bodies.position[at], bodies.orientation[at], bodies.twist[at]});
         }
     }
     std::size_t at = own_;
     for (const std::vector<Place>& of_rank : swapped(ranks_, lent))
         for (const Place& place : of_rank) {
             bodies.position[at] = place.position;
+            bodies.orientation[at] = place.orientation;
             bodies.twist[at++] = place.twist;
         }
 }

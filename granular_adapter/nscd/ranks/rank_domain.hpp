@@ -56,7 +56,7 @@ class RankDomain {
                     const std::vector<std::vector<Twist>*>& twists, Mobilities* mobilities);
     std::size_t own() const { return own_; }
 
-    /// Positions and velocities of the copies as their owners have them now.
+    /// Places and velocities of the copies as their owners have them now.
     void follow(Bodies& bodies) const;
 
     /// For the contacts of a detection among `bodies`, copies included.

@@ -146,11 +146,6 @@ class NlgsIteration {
 
     /// Takes over what other ranks have done to bodies.
     void exchange(std::size_t phase) {
-        if constexpr (requires(typename Rows::Body & body) { set_rates(body, nullptr); })
-            exchange_rates(phase);
-    }
-
-    void exchange_rates(std::size_t phase) {
         const auto body_of = [this](std::int32_t body) -> typename Rows::Body* {
             const std::int32_t slot = layout_->slots[static_cast<std::size_t>(body)];
             return slot < 0 ? nullptr : &layout_->bodies[static_cast<std::size_t>(slot)];

@@ -45,6 +45,9 @@ class ContactSolver {
 
     /// Whether it solves problems of space besides those of the plane.
     virtual bool solves_space() const { return false; }
+
+    /// Whether it solves problems that several ranks share.
+    virtual bool solves_on_ranks() const { return false; }
 };
 
 }  // namespace turbidite::nscd

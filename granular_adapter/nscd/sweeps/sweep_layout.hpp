@@ -12,6 +12,8 @@
 //     impulse(rows, lane)                    the impulse of a packed contact
 //     moment(rows, lane)                     in space: its moment, if rows have some
 //     packed_body(twist, mobility)           a Rows::Body
+//     copy_rates(body, to)                   its velocity and spin as six doubles, for other ranks
+//     set_rates(body, from)                  takes them over
 #pragma once
 
 #include <cstddef>

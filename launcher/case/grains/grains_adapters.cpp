@@ -25,8 +25,8 @@ GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host
             .moved_grains = true};
 }
 
-GrainsAdapter on_ranks_in_space(GrainsAdapter adapter) {
-    adapter.most_ranks_in_space = any_number;
+GrainsAdapter on_ranks(GrainsAdapter adapter) {
+    adapter.most_ranks = any_number;
     adapter.resumes_on_other_ranks = true;
     return adapter;
 }
@@ -37,7 +37,7 @@ GrainsAdapter external_program(const char* name, const char* help) {
     adapter.repeats_windows = true;
     adapter.films = false;
     adapter.moved_grains = false;
-    adapter.most_ranks = adapter.most_ranks_in_space = any_number;
+    adapter.most_ranks = any_number;
     // It may, and has to refuse it otherwise.
     adapter.resumes_on_other_ranks = true;
     return adapter;

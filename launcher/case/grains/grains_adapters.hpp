@@ -44,8 +44,7 @@ struct GrainsAdapter {
     bool materials = false;               ///< more than the first, contact.pairs
     bool prescribed_grains = false;       ///< fixed and driven ones
     bool moved_grains = false;            ///< that follow a motion of domain.motions
-    int most_ranks = 1;                   ///< in the plane
-    int most_ranks_in_space = 1;          ///< at least as many
+    int most_ranks = 1;
     bool resumes_on_other_ranks = false;  ///< than those that saved the state
     double disc_substep = 0.4e-6;         ///< of springs: time per disc and sub-step [s]
 
@@ -57,7 +56,7 @@ struct GrainsAdapter {
 GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host, const char* file);
 
 /// The same with any number of ranks in space.
-GrainsAdapter on_ranks_in_space(GrainsAdapter adapter);
+GrainsAdapter on_ranks(GrainsAdapter adapter);
 
 /// A program of the user's own. The handshake says which shapes and schemes it supports; the rest
 /// it has to refuse itself.

@@ -145,16 +145,28 @@ Ruling command_is_one_program(const Settings& s) {
 
 Ruling ranks_are_supported(const Settings& s) {
     const GrainsAdapter& adapter = grains_adapter(s);
-    const int most = in_space(s) ? adapter.most_ranks_in_space : adapter.most_ranks;
-    if (s.integer("grains.ranks") <= most) return std::nullopt;
-    const bool plane_only = adapter.most_ranks_in_space > 1;
-    const std::string others =
-        in_space(s)
-            ? adapters_that([](const GrainsAdapter& a) { return a.most_ranks_in_space > 1; })
-            : adapters_that([](const GrainsAdapter& a) { return a.most_ranks > 1; });
-    return Objection{fmt::format("{} runs on one rank {}in this version.", adapter.name,
-                                 plane_only ? "in the plane " : ""),
-                     fmt::format("Use 1, or grains.adapter: {}.", others)};
+    if (s.integer("grains.ranks") <= adapter.most_ranks) return std::nullopt;
+    return Objection{
+        fmt::format("{} runs on one rank in this version.", adapter.name),
+        fmt::format("Use 1, or grains.adapter: {}.",
+                    adapters_that([](const GrainsAdapter& a) { return a.most_ranks > 1; }))};
+}
+
+/// Whether several ranks of this project's contact engine share the contacts.
+bool shares_contacts(const Settings& s) {
+    return s.integer("grains.ranks") > 1 && grains_adapter(s).contacts == Contacts::rigid;
+}
+
+Ruling solver_works_on_ranks(const Settings& s) {
+    if (!shares_contacts(s) || is(s, "contact.solver", "nlgs")) return std::nullopt;
+    return Objection{fmt::format("{} solves contacts on one rank.", s.text("contact.solver")),
+                     "Use nlgs, or grains.ranks: 1."};
+}
+
+Ruling files_are_of_one_rank(const Settings& s) {
+    if (!shares_contacts(s)) return std::nullopt;
+    return Objection{"Contact problems shared by several ranks are not written in this version.",
+                     "Remove it, or use grains.ranks: 1."};
 }
 
 /// Grains may have changed their rank by the end of the window that is to be repeated.
@@ -198,8 +210,8 @@ KeyGroup adapter_keys() {
               .fallback = "1",
               .range = {.lower = 1.0},
               .help =
-                  "MPI ranks of the grains program; more than one with lammps-md, external, and "
-                  "in space standalone-nscd"},
+                  "MPI ranks of the grains program; more than one with standalone-nscd, lammps-md "
+                  "and external"},
              {.name = "grains.command",
               .type = KeyType::text,
               .need = Need::conditional,
@@ -218,8 +230,12 @@ KeyGroup adapter_keys() {
                   {"grains.script", {}, script_is_python},
                   {"grains.command", {}, command_has_words},
                   {"grains.command", {}, command_is_one_program},
-                  {"grains.ranks", {"grains.adapter", "dimension"}, ranks_are_supported},
+                  {"grains.ranks", {"grains.adapter"}, ranks_are_supported},
                   {"grains.ranks", {"grains.adapter", "coupling.scheme"}, repeats_on_one_rank},
+                  {"contact.solver", {"grains.ranks", "grains.adapter"}, solver_works_on_ranks},
+                  {"contact.dump_interval",
+                   {"grains.ranks", "grains.adapter"},
+                   files_are_of_one_rank},
                   {"contact.law", {"grains.adapter"}, law_is_known},
                   {"contact.adhesion", {"grains.adapter"}, adhesion_is_known},
                   {"contact.rolling_friction", {"grains.adapter"}, rolling_is_known}},

@@ -90,12 +90,6 @@ Ruling files_know_films(const Settings& s) {
         "Remove one of the two keys."};
 }
 
-Ruling files_are_of_one_rank(const Settings& s) {
-    if (!in_space(s) || s.integer("grains.ranks") == 1) return std::nullopt;
-    return Objection{"Contact problems shared by several ranks are not written in this version.",
-                     "Remove it, or use grains.ranks: 1."};
-}
-
 }  // namespace
 
 KeyGroup space_keys() {
@@ -105,7 +99,6 @@ KeyGroup space_keys() {
         {"contact.solver", {"dimension"}, solver_works_in_space},
         {"contact.dump_interval", {"dimension", "contact.torsion_friction"}, files_know_torsion},
         {"contact.dump_interval", {"contact.film", "dimension", "fluid.enabled"}, files_know_films},
-        {"contact.dump_interval", {"dimension", "grains.ranks"}, files_are_of_one_rank},
         {"fluid.points", {"dimension", "fluid.enabled"}, points_are_interior},
         {pressure_solver, {"dimension", "fluid.enabled"}, is_direct<pressure_solver>},
         {viscous_solver, {"dimension", "fluid.enabled"}, is_direct<viscous_solver>},

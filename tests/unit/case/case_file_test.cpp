@@ -319,7 +319,7 @@ TEST_F(CaseFile, AllFaultsOfAGrainsFileAtOnce) {
 TEST_F(CaseFile, SomeAdaptersRunOnSeveralRanks) {
     const std::string text = refusal("", {"grains.ranks=2"});
     EXPECT_SAYS(text, "yade-nscd runs on one rank in this version.");
-    EXPECT_SAYS(text, "Use 1, or grains.adapter: lammps-md.");
+    EXPECT_SAYS(text, "Use 1, or grains.adapter: standalone-nscd or lammps-md.");
     const Settings settings = load("", {"grains.ranks=2", "grains.adapter=lammps-md"}).settings;
     EXPECT_EQ(settings.integer("grains.ranks"), 2);
     EXPECT_EQ(settings.text("coupling.scheme"), "split");
@@ -335,9 +335,15 @@ TEST_F(CaseFile, SomeAdaptersRunOnSeveralRanks) {
               1);
 }
 
-TEST_F(CaseFile, TheContactEngineRunsOnRanksInSpace) {
-    const std::vector<std::string> engine = {"grains.adapter=standalone-nscd", "grains.ranks=2"};
-    EXPECT_SAYS(refusal("", engine), "standalone-nscd runs on one rank in the plane");
+TEST_F(CaseFile, RanksOfTheContactEngineHaveOneSolverAndNoProblemFiles) {
+    std::vector<std::string> engine = {"grains.adapter=standalone-nscd", "grains.ranks=2"};
+    EXPECT_EQ(refusal("", engine), "");
+    engine.insert(engine.end(), {"contact.solver=central-path", "contact.dump_interval=1"});
+    const std::string text = refusal("", engine);
+    EXPECT_SAYS(text, "central-path solves contacts on one rank.");
+    EXPECT_SAYS(text, "Contact problems shared by several ranks are not written");
+    engine[1] = "grains.ranks=1";
+    EXPECT_EQ(refusal("", engine), "");
 }
 
 TEST_F(CaseFile, VariantsOfLaterVersions) {

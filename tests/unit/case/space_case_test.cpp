@@ -110,7 +110,7 @@ TEST_F(SpaceCase, WhatSpaceCannotDoIsRefusedAtOnce) {
     EXPECT_SAYS(text, "In space length, height and depth of the box in D, all above 0.");
 }
 
-// Signorini and Coulomb only, of one rank.
+// Signorini and Coulomb only.
 TEST_F(SpaceCase, FilesOfContactProblemsDoNotHoldEverything) {
     EXPECT_EQ(refusal("", {"contact.dump_interval=1"}), "");
     EXPECT_SAYS(refusal("", {"contact.dump_interval=1", "contact.torsion_friction=0.1"}),
@@ -126,8 +126,6 @@ TEST_F(SpaceCase, FilesOfContactProblemsDoNotHoldEverything) {
         refusal("", {"contact.dump_interval=1", "contact.film=lubrication", "fluid.enabled=true",
                      "fluid.reynolds=10", "fluid.cells_per_diameter=8"}),
         "do not support films, but contact.film = lubrication.");
-    EXPECT_SAYS(refusal("", {"contact.dump_interval=1", "grains.ranks=2"}),
-                "Contact problems shared by several ranks are not written");
 }
 
 // What a fluid in the plane can do and one in space cannot.

@@ -98,6 +98,15 @@ SphereBody packed_body(const Twist& v, const SphereMobility& body) {
     return {v.velocity, v.spin, body.linear, body.angular};
 }
 
+void copy_rates(const SphereBody& from, double* to) {
+    std::copy_n(from.velocity.begin(), 3, to);
+    std::copy_n(from.spin.begin(), 3, to + 3);
+}
+void set_rates(SphereBody& to, const double* from) {
+    std::copy_n(from, 3, to.velocity.begin());
+    std::copy_n(from + 3, 3, to.spin.begin());
+}
+
 struct SphereRows {
     static constexpr int width = 1;
     using Base = SphereRows;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The contact engine's adapters of several ranks under `joint`, each with its own grains, against
-// one adapter with all of them: bit for bit, whatever the number of ranks.
+// one adapter with all of them: bit for bit, whatever the number of ranks; in the plane from two
+// on.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -18,7 +19,7 @@ namespace {
 
 using nscd::MemoryExchange;
 
-const ShapeTable spheres = {{"sphere", {}}};
+const ShapeTable spheres = {{"sphere", {}}}, discs = {{"disc", {}}};
 
 /// A box of 20 x 20 x 6 with a free right side, g = 1.
 Settings box_in_space() {
@@ -35,6 +36,30 @@ Settings box_in_space() {
         s.set(std::string("domain.") + side, std::string("wall"));
     s.set("domain.right", std::string("free"));
     return s;
+}
+
+/// The same in the plane, of 56 x 20.
+Settings box_in_the_plane() {
+    Settings s = box_settings();
+    s.set("fluid.enabled", false);
+    s.set("run.size_x", 56.0);
+    s.set("contact.tolerance", 1e-5);
+    s.set("contact.restitution", 0.5);
+    s.set("domain.right", std::string("free"));
+    return s;
+}
+
+/// A heap of discs that slides to the right.
+std::vector<GrainState> heap_in_the_plane() {
+    std::vector<GrainState> grains;
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 50; ++x) {
+            GrainState grain = grain_at(static_cast<GrainId>(grains.size()), 0, 0);
+            grain.position = {0.6 + 1.08 * x + 0.03 * y, 0.55 + 1.02 * y, 0.0};
+            grain.velocity = {9.0, -0.5, 0.0};
+            grains.push_back(grain);
+        }
+    return grains;
 }
 
 /// A heap that slides to the right.
@@ -64,6 +89,14 @@ FreeResponse answer(const GrainState& grain, const GrainState& start, int round,
     }
     for (std::size_t i = 0; i < 6; ++i)
         response.inertia[upper_entry(i, i)] = i < 3 ? mass : inertia;
+    return response;
+}
+
+/// In the plane; some grains, which not every rank has, move more easily along x than along y.
+FreeResponse answer_in_the_plane(const GrainState& grain, const GrainState& start, int round,
+                                 double dt) {
+    FreeResponse response = answer(grain, start, round, dt);
+    if (grain.id < 20) response.inertia[upper_entry(1, 1)] *= 1.3;
     return response;
 }
 
@@ -108,6 +141,17 @@ Window window(int index) {
     return window;
 }
 
+struct PlayedCase {
+    Settings settings = box_in_space();
+    ShapeTable shapes = spheres;
+    std::vector<GrainState> grains = heap();
+    FreeResponse (*answer)(const GrainState&, const GrainState&, int, double) = turbidite::answer;
+};
+
+PlayedCase in_the_plane() {
+    return {box_in_the_plane(), discs, heap_in_the_plane(), answer_in_the_plane};
+}
+
 struct Played {
     State end;
     std::vector<SavedState> saved;  ///< by rank, after the window `middle`
@@ -116,7 +160,7 @@ struct Played {
 };
 
 /// From the beginning, or from what was saved in the middle.
-Played play(int ranks, const std::vector<SavedState>& from = {}) {
+Played play(int ranks, const std::vector<SavedState>& from = {}, const PlayedCase& it = {}) {
     Played played;
     played.saved.resize(static_cast<std::size_t>(ranks));
     std::mutex mutex;
@@ -125,9 +169,9 @@ Played play(int ranks, const std::vector<SavedState>& from = {}) {
         NscdAdapter adapter;
         if (ranks > 1) adapter.share_with(exchange);
         std::vector<GrainState> mine;
-        for (const GrainState& grain : heap())
+        for (const GrainState& grain : it.grains)
             if (static_cast<int>(grain.id) % ranks == exchange.rank()) mine.push_back(grain);
-        Motion state = adapter.initialise(box_in_space(), spheres, mine);
+        Motion state = adapter.initialise(it.settings, it.shapes, mine);
         if (!from.empty()) {
             from.size() == static_cast<std::size_t>(ranks) ? adapter.restore(from[own])
                                                            : adapter.restore_from(from);
@@ -151,7 +195,7 @@ Played play(int ranks, const std::vector<SavedState>& from = {}) {
             for (int round = 0; round < 2; ++round) {
                 std::vector<FreeResponse> responses;
                 for (const GrainState& grain : state.grains)
-                    responses.push_back(answer(grain, start.at(grain.id), round, dt));
+                    responses.push_back(it.answer(grain, start.at(grain.id), round, dt));
                 const std::size_t before = state.grains.size();
                 state = adapter.advance(window(n), responses);
                 moved += before != state.grains.size();
@@ -211,6 +255,19 @@ TEST(NscdAdapterOnRanks, HasTheBitsOfOneUnderJoint) {
         EXPECT_EQ(one.removed, many.removed);
         EXPECT_GT(many.moved, 3) << "grains have to change their rank";
     }
+}
+
+TEST(NscdAdapterOnRanks, HasTheSameBitsInThePlaneUnderJoint) {
+    const Played two = play(2, {}, in_the_plane());
+    ASSERT_GT(two.removed, 5) << "grains have to leave";
+    ASSERT_GT(two.end.contacts.size(), 50u);
+    EXPECT_GT(two.moved, 3) << "grains have to change their rank";
+    for (const int ranks : {3, 4}) {
+        const Played many = play(ranks, {}, in_the_plane());
+        expect_equal(two.end, many.end);
+        EXPECT_EQ(two.removed, many.removed);
+    }
+    expect_equal(two.end, play(3, two.saved, in_the_plane()).end, false);
 }
 
 TEST(NscdAdapterOnRanks, GoesOnOnAnotherNumberOfRanks) {

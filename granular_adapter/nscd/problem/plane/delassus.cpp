@@ -79,6 +79,9 @@ Delassus::Delassus(const ContactProblem& problem)
         rolling_ = rolling_ || w.rr > 0.0;
         blocks_.push_back(w);
     }
+    // Which rows the sweeps use must not depend on which contacts this rank has.
+    diagonal_ = !on_any_rank(problem, !diagonal_);
+    rolling_ = on_any_rank(problem, rolling_);
 }
 
 Impulses Delassus::apply(const Impulses& r) const {

@@ -21,7 +21,7 @@ class Delassus {
     using Mobility = PlanarTensor;
     using Block = nscd::Block;
 
-    /// Keeps a reference to the problem, which must be one of the plane and outlive it.
+    /// Keeps a reference to the problem, which must be one of the plane and outlive it. Collective.
     explicit Delassus(const ContactProblem& problem);
 
     const std::vector<PlanarTensor>& bodies() const { return bodies_; }
@@ -31,11 +31,12 @@ class Delassus {
     Impulses apply(const Impulses& r) const;
 
     /// True if all arms are along the normals, no block couples n and t, and every mobility is
-    /// isotropic.
+    /// isotropic, of all ranks.
     bool diagonal() const { return diagonal_; }
 
-    /// True if some contact has rolling resistance. Only the blocks of such contacts have a
-    /// non-zero third row, and not even these if neither body can rotate: then there is no moment.
+    /// True if some contact of any rank has rolling resistance. Only the blocks of such contacts
+    /// have a non-zero third row, and not even these if neither body can rotate: then there is no
+    /// moment.
     bool rolling() const { return rolling_; }
 
  private:

@@ -47,6 +47,15 @@ inline PlaneBody packed_body(const Twist& v, const PlanarTensor& mobility) {
     return {v.velocity[0], v.velocity[1], v.spin[2], mobility.xx};
 }
 
+/// Velocity and spin as six doubles, for other ranks: in the places of a Twist.
+inline void copy_rates(const PlaneBody& from, double* to) {
+    to[0] = from.x, to[1] = from.y, to[5] = from.spin;
+    to[2] = to[3] = to[4] = 0.0;
+}
+inline void set_rates(PlaneBody& to, const double* from) {
+    to.x = from[0], to.y = from[1], to.spin = from[5];
+}
+
 /// The rows for the contacts of an operator.
 template <class Use>
 auto with_rows(const Delassus& w, const Use& use) {

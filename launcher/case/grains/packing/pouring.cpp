@@ -110,7 +110,7 @@ std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
     changes.push_back("grains.generator=random");
     // Whatever plays the run: pouring needs no host code.
     changes.push_back("grains.adapter=standalone-nscd");
-    // Nor does the number of ranks, on which spheres have the same digits, make another packing.
+    // Nor does the number of ranks: spheres have the same digits on any.
     changes.push_back("grains.ranks=1");
     changes.push_back("grains.script=~");
     if (settings.has("grains.extra_file")) changes.push_back("grains.extra_file=~");
