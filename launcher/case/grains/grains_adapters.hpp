@@ -39,11 +39,11 @@ struct GrainsAdapter {
     bool adhesion_and_rolling = false;     ///< contact.adhesion, contact.rolling_friction
     bool films = false;                    ///< contact.film
     bool cyclic_sides = false;
-    bool inner_walls = false;             ///< domain.walls_file
-    bool moving_sides = false;            ///< domain.SIDE_motion
-    bool materials = false;               ///< more than the first, contact.pairs
-    bool prescribed_grains = false;       ///< fixed and driven ones
-    bool moved_grains = false;            ///< that follow a motion of domain.motions
+    bool inner_walls = false;        ///< domain.walls_file
+    bool moving_sides = false;       ///< domain.SIDE_motion
+    bool materials = false;          ///< more than the first, contact.pairs
+    bool prescribed_grains = false;  ///< fixed and driven ones
+    bool moved_grains = false;       ///< that follow a motion of domain.motions
     int most_ranks = 1;
     bool resumes_on_other_ranks = false;  ///< than those that saved the state
     double disc_substep = 0.4e-6;         ///< of springs: time per disc and sub-step [s]
