@@ -116,9 +116,9 @@ RunStatus couple(const std::string& directory, const std::string& set,
             hub_files(folder), *grains.channel(), fluid.channel(),
             find_scheme(resolved.settings.text("run.scheme")));
     std::signal(SIGTERM, [](int) { ended_from_outside = 1; });
-    hub.heed(ended_from_outside);
+    hub.end_on(ended_from_outside);
     std::signal(SIGUSR1, [](int) { asked_to_stop = 1; });
-    hub.heed_stop(asked_to_stop);
+    hub.stop_on(asked_to_stop);
     return hub.run();
 }
 

@@ -14,8 +14,6 @@
 namespace turbidite {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // How long dismissed participants may take to write their output and leave [s]; a participant that
 // is already silent is not waited for.
 constexpr double farewell_limit = 30.0;
@@ -23,10 +21,6 @@ constexpr double farewell_limit_after_stall = 2.0;
 
 // Followed by the wait-for table.
 const std::string end_from_outside = "ended from outside; until then";
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 bool started_by_launcher() {
     return std::getenv("TURBIDITE_PROGRESS") != nullptr;
@@ -65,23 +59,18 @@ Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid,
       settings_(hub_settings(case_.settings)),
       files_(std::move(files)),
       progress_(files_.log, on_terminal(), settings_.run),
-      grains_(Role::grains, grains),
-      fluid_(fluid ? std::optional<ParticipantLink>(std::in_place, Role::fluid, *fluid)
-                   : std::nullopt),
-      links_(fluid_ ? std::vector<ParticipantLink*>{&*fluid_, &grains_}
-                    : std::vector<ParticipantLink*>{&grains_}),
-      watch_(links_, settings_.stall_soft, settings_.stall_hard,
-             [this](const std::string& text) { progress_.say(text); }),
-      roster_(case_.population),
-      kick_rule_(settings_.run, case_.shapes, case_.population),
-      motion_rule_(case_.settings, case_.shapes, case_.population),
+      participants_(grains, fluid, settings_,
+                    [this](const std::string& text) { progress_.say(text); }),
+      grain_rules_{std::nullopt, GrainRoster(case_.population),
+                   KickRule(settings_.run, case_.shapes, case_.population),
+                   MotionRule(case_.settings, case_.shapes, case_.population)},
       order_(scheme),
       scheme_(scheme.make(case_.settings)),
       ledger_(settings_, [this](const std::string& text) { progress_.say(text); }),
       output_(make_output()),
       requests_(files_.root),
-      checkpoints_(case_.settings, settings_.run, files_.root, links_, watch_,
-                   [this](const std::string& text) { progress_.say(text); }) {}
+      checkpoints_(case_.settings, settings_.run, files_.root, participants_.links,
+                   participants_.watch, [this](const std::string& text) { progress_.say(text); }) {}
 
 Hub::~Hub() = default;
 
@@ -94,12 +83,12 @@ RunOutput Hub::make_output() const {
 
 /// One window, from t^n to t^{n+1}.
 void Hub::play(const Window& window) {
-    WindowResult result = scheme_->play(window, output_.state(), cast());
+    WindowResult result = scheme_->play(window, output_.state(), context());
     ledger_.check(window, result);
     // The largest Courant number before this window: a warning belongs to the window that exceeds
     // it.
     const auto fluid = output_.statistics().maxima.fluid;
-    output_.record(window, std::move(result), watch_.take_waited());
+    output_.record(window, std::move(result), participants_.watch.take_waited());
     if (fluid) warn_of_courant(fluid->courant);
 }
 
@@ -119,7 +108,8 @@ void Hub::finish(const Window& window, bool out_of_turn, bool save_it) {
 }
 
 void Hub::write_output(const Window& window) {
-    enter(timeline_ ? &*timeline_ : nullptr, Timeline::Part::compute, "output", window.index);
+    auto& timeline = participants_.timeline;
+    enter(timeline ? &*timeline : nullptr, Timeline::Part::compute, "output", window.index);
     output_.write();
 }
 
@@ -163,16 +153,17 @@ Window Hub::window(std::int64_t index, bool written) const {
 CouplerState Hub::state() {
     CouplerState state;
     state.windows = output_.statistics().windows_done;
-    state.wall_seconds = earlier_seconds_ + since(begin_);
+    state.wall_seconds = wall_clock_.seconds();
     state.ledger = ledger_.saved();
-    state.owners.assign(plan_->owners().begin(), plan_->owners().end());
+    state.owners.assign(grain_rules_.plan->owners().begin(), grain_rules_.plan->owners().end());
     state.output = output_.saved();
     return state;
 }
 
-Cast Hub::cast() {
-    return {grains_,     fluid_ ? &*fluid_ : nullptr, watch_, *plan_, roster_, kick_rule_,
-            motion_rule_};
+SchemeContext Hub::context() {
+    return {participants_.grains, participants_.fluid_or_null(), participants_.watch,
+            *grain_rules_.plan,   grain_rules_.roster,           grain_rules_.kick,
+            grain_rules_.motion};
 }
 
 RunStatus Hub::run() {
@@ -189,7 +180,7 @@ RunStatus Hub::run() {
         status_.code = ExitCode::participant_failed;
         status_.reason = error.what();
     }
-    status_.wall_seconds = earlier_seconds_ + since(begin_);
+    status_.wall_seconds = wall_clock_.seconds();
     status_.checkpoints = {checkpoints_.written(), checkpoints_.seconds()};
     status_.statistics = output_.statistics();
     check_end();
@@ -213,7 +204,7 @@ void Hub::check_end() {
 // record that cannot be written must not keep the participants from leaving.
 void Hub::end_and_record() {
     try {
-        write_run_record(files_.record, status_, hellos(links_));
+        write_run_record(files_.record, status_, hellos(participants_.links));
     } catch (const std::exception& error) {
         if (status_.code == ExitCode::done) status_.code = ExitCode::participant_failed;
         status_.reason += (status_.reason.empty() ? "" : "; ") + std::string(error.what());
@@ -225,7 +216,7 @@ void Hub::end_and_record() {
             ExitCode::done) {  // all windows are done, but the farewells are missing
             status_.code = failure.code();
             status_.reason = failure.what();
-            write_run_record(files_.record, status_, hellos(links_));
+            write_run_record(files_.record, status_, hellos(participants_.links));
         }
         throw;
     }
@@ -234,45 +225,47 @@ void Hub::end_and_record() {
 void Hub::start() {
     if (case_.settings.has("output.timeline") && case_.settings.flag("output.timeline"))
         // In front of the first wait, so that the handshake is in the timeline too.
-        watch_.set_timeline(&timeline_.emplace(files_.root, Role::coupler, 0));
-    watch_.leave_table(wait_table_file(files_.root));
+        participants_.watch.set_timeline(
+            &participants_.timeline.emplace(files_.root, Role::coupler, 0));
+    participants_.watch.leave_table(wait_table_file(files_.root));
     name_by_start_records();
     // All mismatches of all programs are refused here, before any of them gets its settings.
-    shake_hands(links_, case_.settings, case_.shapes, order_, watch_);
-    ledger_.name_programs(grains_.program(), fluid_ ? fluid_->program() : "");
+    shake_hands(participants_.links, case_.settings, case_.shapes, order_, participants_.watch);
+    ParticipantLink* const fluid = participants_.fluid_or_null();
+    ledger_.name_programs(participants_.grains.program(), fluid ? fluid->program() : "");
     tell_participants();
     std::vector<Box> boxes;
-    if (fluid_) {
-        watch_.wait_for(*fluid_, Kind::domain);
+    if (fluid) {
+        participants_.watch.wait_for(*fluid, Kind::domain);
         // Where each fluid rank must know the grains: needed to route the first ones.
-        boxes = fluid_->take<Box>(Kind::domain);
-        const Arrival arrival(*fluid_, Kind::domain, -1);
-        for (int rank = 0; rank < fluid_->ranks(); ++rank) arrival.check(rank, boxes[rank]);
+        boxes = fluid->take<Box>(Kind::domain);
+        const Arrival arrival(*fluid, Kind::domain, -1);
+        for (int rank = 0; rank < fluid->ranks(); ++rank) arrival.check(rank, boxes[rank]);
     }
-    plan_.emplace(std::move(boxes), settings_.run.period);
+    grain_rules_.plan.emplace(std::move(boxes), settings_.run.period);
     checkpoints_.meet_participants();
-    Cast everybody = cast();
-    const Capabilities& can = grains_.hello(0).capabilities;
-    motion_rule_.expect_substeps(can.native_substeps);
+    SchemeContext scheme_context = context();
+    const Capabilities& can = participants_.grains.hello(0).capabilities;
+    grain_rules_.motion.expect_substeps(can.native_substeps);
     // Grains that get the fluid's inertia may move with the velocities of their contacts. Under a
     // scheme that repeats windows they get responses too, but must move with the kicks:
     // needs_inertia() is false.
-    motion_rule_.expect_responses(
+    grain_rules_.motion.expect_responses(
         expectation(Role::grains, case_.settings, case_.shapes, order_).effective_inertia);
     // Also where a run goes on: all programs begin with the case's grains and are restored
     // afterwards.
-    Motion initial = receive_start(everybody);
+    Motion initial = receive_start(scheme_context);
     if (case_.resumed)
         go_on_from(*case_.resumed);
     else
         begin_output(std::move(initial));
     // Waiting during the start belongs to no window.
-    watch_.take_waited();
+    participants_.watch.take_waited();
 }
 
 // So that a participant which never sends its hello has a host and a log all the same.
 void Hub::name_by_start_records() {
-    for (ParticipantLink* link : links_)
+    for (ParticipantLink* link : participants_.links)
         for (int rank = 0; rank < link->ranks(); ++rank)
             if (const auto record = read_start_record(files_.root, link->role(), rank))
                 link->set_hello(rank, preliminary_hello(*record));
@@ -284,21 +277,21 @@ void Hub::begin_output(Motion initial) {
 }
 
 void Hub::go_on_from(const Resumption& earlier) {
-    const std::vector<Motion> shares = shares_of(earlier.state, grains_.ranks());
+    const std::vector<Motion> shares = shares_of(earlier.state, participants_.grains.ranks());
     // The participants first: one that cannot take its state ends the run before the coupler has.
     checkpoints_.restore(earlier.name);
     // Without the grains that left before the checkpoint, which the population still has.
-    roster_.resume(shares);
-    plan_->gather(shares);
+    grain_rules_.roster.resume(shares);
+    grain_rules_.plan->gather(shares);
     ledger_.resume(earlier.state.ledger);
-    earlier_seconds_ = earlier.state.wall_seconds;
+    wall_clock_.go_on_after(earlier.state.wall_seconds);
     progress_.begin_at(earlier.state.windows);
     progress_.say(fmt::format("resumed after window {} from {}", earlier.state.windows,
                               CheckpointSets::folder(earlier.name)));
 }
 
 void Hub::tell_participants() {
-    for (ParticipantLink* link : links_) {
+    for (ParticipantLink* link : participants_.links) {
         const Order& order = order_.order(link->role());
         // The coupler's end, checked like the participant's own.
         link->set_window_order(order);
@@ -310,7 +303,8 @@ void Hub::tell_participants() {
         link->send_all(Kind::order, order);
         link->send_all(Kind::shapes, case_.shapes);
     }
-    grains_.send_each(Kind::population, shares_of(case_.population, grains_.ranks()));
+    participants_.grains.send_each(Kind::population,
+                                   shares_of(case_.population, participants_.grains.ranks()));
 }
 
 void Hub::end(const Verdict& verdict) {
@@ -318,11 +312,11 @@ void Hub::end(const Verdict& verdict) {
     // Three rounds: no process may reach MPI_Finalize before all of them have written their output
     // and said farewell, else mpirun hangs or crashes when one of them has to be aborted
     // (docs/decisions/job.md).
-    for (ParticipantLink* link : links_) link->dismiss(verdict);
+    for (ParticipantLink* link : participants_.links) link->dismiss(verdict);
     const double limit =
         status_.code == ExitCode::stalled ? farewell_limit_after_stall : farewell_limit;
     await_all(&ParticipantLink::gone, limit);
-    for (ParticipantLink* link : links_) link->release();
+    for (ParticipantLink* link : participants_.links) link->release();
     // `release` must have left this process before it goes on to MPI_Finalize itself.
     await_all(&ParticipantLink::flushed, limit);
 }
@@ -340,7 +334,8 @@ void Hub::await_all(bool (ParticipantLink::*condition)(), double limit) {
     for (bool waiting = true; waiting; patience.wait()) {
         waiting = false;
         // The condition is asked of every link, since asking is what takes its frames in.
-        for (ParticipantLink* link : links_) waiting = !(link->*condition)() || waiting;
+        for (ParticipantLink* link : participants_.links)
+            waiting = !(link->*condition)() || waiting;
         if (waiting && patience.seconds() > limit)
             throw Failure(
                 status_.code == ExitCode::done ? ExitCode::stalled : status_.code,

@@ -4,12 +4,14 @@
 // channels.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 
 #include "coupler/hub/checkpoints.hpp"
 #include "coupler/hub/checks/ledger.hpp"
 #include "coupler/hub/hub_settings.hpp"
+#include "coupler/hub/participants.hpp"
 #include "coupler/hub/requests.hpp"
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/output/progress.hpp"
@@ -46,20 +48,42 @@ class Hub {
     ~Hub();
 
     /// Executes the whole run. Returns what it also wrote into the run record. Throws
-    /// EndedFromOutside, see heed.
+    /// EndedFromOutside, see end_on.
     RunStatus run();
 
     /// When `signal` is not 0, `run` writes the wait-for table to its log, and throws: mpirun ends
     /// the job since another program has died, and the table says in which window and phase.
-    void heed(const volatile std::sig_atomic_t& signal) { watch_.heed(signal); }
+    void end_on(const volatile std::sig_atomic_t& signal) { participants_.watch.end_on(signal); }
 
     /// When `signal` is not 0, the next window is the last one, and a checkpoint follows.
-    void heed_stop(const volatile std::sig_atomic_t& signal) { requests_.heed(signal); }
+    void stop_on(const volatile std::sig_atomic_t& signal) { requests_.stop_on(signal); }
 
     /// Who works and who waits, one line per rank.
-    std::string wait_for_table() const { return watch_.wait_for_table(); }
+    std::string wait_for_table() const { return participants_.watch.wait_for_table(); }
 
  private:
+    /// Who has which grain, and what messages about them have to say.
+    struct GrainRules {
+        std::optional<ExchangePlan> plan;  ///< once the fluid has told its boxes
+        GrainRoster roster;
+        KickRule kick;
+        MotionRule motion;
+    };
+
+    /// Of the whole run, the parts before this one included.
+    class WallClock {
+     public:
+        void go_on_after(double seconds) { earlier_ = seconds; }
+        double seconds() const {
+            return earlier_ + std::chrono::duration<double>(Clock::now() - begin_).count();
+        }
+
+     private:
+        using Clock = std::chrono::steady_clock;
+        Clock::time_point begin_ = Clock::now();
+        double earlier_ = 0.0;
+    };
+
     void start();
     void name_by_start_records();
     void begin_output(Motion initial);
@@ -73,7 +97,7 @@ class Hub {
     CouplerState state();
     std::string stopped_after(std::int64_t windows) const;
     RunOutput make_output() const;
-    Cast cast();
+    SchemeContext context();
 
     void tell_participants();
     void check_end();
@@ -86,23 +110,15 @@ class Hub {
     HubSettings settings_;
     HubFiles files_;
     Progress progress_;
-    ParticipantLink grains_;
-    std::optional<ParticipantLink> fluid_;
-    std::optional<Timeline> timeline_;
-    std::vector<ParticipantLink*> links_;
-    Watch watch_;
-    std::optional<ExchangePlan> plan_;
-    GrainRoster roster_;
-    KickRule kick_rule_;
-    MotionRule motion_rule_;
+    Participants participants_;
+    GrainRules grain_rules_;
     SchemeEntry order_;
     std::unique_ptr<Scheme> scheme_;
     Ledger ledger_;
     RunOutput output_;
     RequestFiles requests_;
     Checkpoints checkpoints_;
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-    double earlier_seconds_ = 0.0;  ///< of the parts of the run before this one
+    WallClock wall_clock_;
     RunStatus status_;
 };
 

@@ -30,7 +30,7 @@ class RequestFiles {
     explicit RequestFiles(std::filesystem::path run_folder) : folder_(std::move(run_folder)) {}
 
     /// From now on a signal that is not 0 stops the run, with exit code 143.
-    void heed(const volatile std::sig_atomic_t& signal) { signal_ = &signal; }
+    void stop_on(const volatile std::sig_atomic_t& signal) { signal_ = &signal; }
 
     /// What is asked for, once.
     Requests take() const;

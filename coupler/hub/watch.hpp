@@ -41,7 +41,7 @@ class Watch {
     void set_timeline(Timeline* timeline) { timeline_ = timeline; }
 
     /// From now on `wait_for` throws EndedFromOutside when `signal` is not 0.
-    void heed(const volatile std::sig_atomic_t& signal) { signal_ = &signal; }
+    void end_on(const volatile std::sig_atomic_t& signal) { signal_ = &signal; }
 
     /// One line per rank: who works, who waits, since when.
     std::string wait_for_table() const;

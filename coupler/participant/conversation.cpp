@@ -27,7 +27,7 @@ void Conversation::send(Kind kind) {
     channel_.send(0, frame({order_.next_sent(kind, to_coupler), {}}));
 }
 
-void Conversation::see_off() {
+void Conversation::flush_sent() {
     // in_transit() ends this when the other side is busy: the rest moves when it looks again.
     for (Patience patience; !channel_.flushed() && channel_.in_transit();) patience.wait(true);
 }

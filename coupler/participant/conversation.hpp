@@ -62,7 +62,7 @@ class Conversation {
 
     /// Attends to what was sent until it has gone or the coupler turns out to be busy: what the
     /// host does between windows would hold up a long frame.
-    void see_off();
+    void flush_sent();
 
     /// Waits for the message that is due; after a round the coupler decides which of two it is.
     /// Throws Dismissed, OrderViolation, MalformedPayload, CouplerSilent.

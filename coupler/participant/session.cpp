@@ -104,7 +104,7 @@ bool Session::step() {
                 checkpoint(message);
         }
         // The host is not inside MPI until the next step: a long last frame would not move.
-        talk_->conversation.see_off();
+        talk_->conversation.flush_sent();
     });
 }
 

@@ -44,7 +44,7 @@ struct Ring {
 Ring next_ring(int bell) {
     char rung = 0;
     iovec place{&rung, 1};
-    // The kernel fills in who has sent it (SO_PASSCRED, hang()): another user cannot forge it.
+    // The kernel fills in who has sent it (SO_PASSCRED, install()): another user cannot forge it.
     alignas(cmsghdr) char control[CMSG_SPACE(sizeof(ucred))];
     msghdr message{};
     message.msg_iov = &place, message.msg_iovlen = 1;
@@ -73,7 +73,7 @@ Doorbell::~Doorbell() {
     if (socket_ >= 0) ::close(socket_);
 }
 
-bool Doorbell::hang(const std::string& name) {
+bool Doorbell::install(const std::string& name) {
     if (socket_ >= 0) return true;
     if (name.size() > longest_name) return false;
     const int made = new_socket(), yes = 1;

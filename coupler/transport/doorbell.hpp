@@ -16,7 +16,7 @@ class Doorbell {
     /// The one of this process.
     static Doorbell& own();
 
-    /// Nobody can ring before hang().
+    /// Nobody can ring before install().
     Doorbell() = default;
     ~Doorbell();
     Doorbell(const Doorbell&) = delete;
@@ -24,7 +24,7 @@ class Doorbell {
 
     /// From now on others can ring. Returns false if nobody can, since there is a bell of this name
     /// already, or the name is longer than 100 characters. A bell keeps its first name.
-    bool hang(const std::string& name);
+    bool install(const std::string& name);
 
     /// Sleeps until somebody rings, `seconds` at most. Returns whether a process of this user has,
     /// also before this call; rings of others end the sleep and count for nothing. Returns however

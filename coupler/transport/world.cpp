@@ -32,7 +32,7 @@ void hang_doorbell() {
     int rank = 0;
     PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
     const std::string name = bell_name(rank);
-    if (Doorbell::own().hang(name) || std::getenv(job_variable) == nullptr) return;
+    if (Doorbell::own().install(name) || std::getenv(job_variable) == nullptr) return;
     std::fprintf(stderr,
                  "turbidite: warning: another process has the doorbell @%s of this one (ss -xlp "
                  "names it); this one looks for messages by itself, which takes longer\n",

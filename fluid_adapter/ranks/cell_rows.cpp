@@ -95,15 +95,15 @@ void CellRows::sort_cells(const std::vector<int>& cells) {
     };
     // Each holder learns where the values that will come from a rank belong; later only values are
     // sent, in this order.
-    const ByRank<int> guests = all_to_all(group_, places);
+    const ByRank<int> received = all_to_all(group_, places);
     for (int rank = 0; rank < ranks; ++rank) {
         append(away_, away_cells_, rank, away[rank]);
-        if (rank != group_.rank()) append(guests_, guest_places_, rank, guests[rank]);
+        if (rank != group_.rank()) append(received_, received_places_, rank, received[rank]);
     }
     // own_cells_ is 0, 1, 2, ... here: the rank's order is that of the rows.
     straight_ = stays() && own_cells_ == own_places_;
     away_values_.resize(away_cells_.size());
-    guest_values_.resize(guest_places_.size());
+    received_values_.resize(received_places_.size());
 }
 
 void CellRows::check_complete() const {
@@ -111,7 +111,7 @@ void CellRows::check_complete() const {
         static_cast<std::size_t>(rows_of_rank_[group_.rank()].count) * columns_;
     // Every place of a rank's rows is filled by exactly one cell, on all ranks.
     std::vector<int> places = own_places_;
-    places.insert(places.end(), guest_places_.begin(), guest_places_.end());
+    places.insert(places.end(), received_places_.begin(), received_places_.end());
     std::sort(places.begin(), places.end());
     bool complete = places.size() == size;
     for (std::size_t k = 0; complete && k < size; ++k) complete = places[k] == static_cast<int>(k);

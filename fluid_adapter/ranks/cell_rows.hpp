@@ -45,7 +45,7 @@ class CellRows {
     bool in_cell_order() const { return straight_; }
 
     /// No value travels between ranks.
-    bool stays() const { return away_.empty() && guests_.empty(); }
+    bool stays() const { return away_.empty() && received_.empty(); }
 
  private:
     struct Part {  // section of a buffer, for one other rank
@@ -66,10 +66,10 @@ class CellRows {
     // All cells stay, and are already in the order of the rows.
     bool straight_ = false;
     std::vector<int> own_cells_, own_places_;  // cells that stay, and their places in the rows
-    std::vector<Part> away_, guests_;          // sections of the next two lists
+    std::vector<Part> away_, received_;        // sections of the next two lists
     std::vector<int> away_cells_;              // cells whose rows are on another rank
-    std::vector<int> guest_places_;            // places in the rows of cells from other ranks
-    std::vector<double> away_values_, guest_values_;
+    std::vector<int> received_places_;         // places in the rows of cells from other ranks
+    std::vector<double> away_values_, received_values_;
     std::vector<MPI_Request> requests_;
 };
 
@@ -81,12 +81,12 @@ void CellRows::gather(ValueOf value_of, double* rows) {
         return;
     }
     for (std::size_t k = 0; k < away_cells_.size(); ++k) away_values_[k] = value_of(away_cells_[k]);
-    begin_exchange(away_, away_values_.data(), guests_, guest_values_.data());
+    begin_exchange(away_, away_values_.data(), received_, received_values_.data());
     for (std::size_t k = 0; k < own_cells_.size(); ++k)
         rows[own_places_[k]] = value_of(own_cells_[k]);
     end_exchange();
-    for (std::size_t k = 0; k < guest_places_.size(); ++k)
-        rows[guest_places_[k]] = guest_values_[k];
+    for (std::size_t k = 0; k < received_places_.size(); ++k)
+        rows[received_places_[k]] = received_values_[k];
 }
 
 template <class Put>
@@ -96,9 +96,9 @@ void CellRows::scatter(const double* rows, Put put) {
         for (int c = 0; c < n; ++c) put(c, rows[c]);
         return;
     }
-    for (std::size_t k = 0; k < guest_places_.size(); ++k)
-        guest_values_[k] = rows[guest_places_[k]];
-    begin_exchange(guests_, guest_values_.data(), away_, away_values_.data());
+    for (std::size_t k = 0; k < received_places_.size(); ++k)
+        received_values_[k] = rows[received_places_[k]];
+    begin_exchange(received_, received_values_.data(), away_, away_values_.data());
     for (std::size_t k = 0; k < own_cells_.size(); ++k) put(own_cells_[k], rows[own_places_[k]]);
     end_exchange();
     for (std::size_t k = 0; k < away_cells_.size(); ++k) put(away_cells_[k], away_values_[k]);

@@ -29,13 +29,13 @@ std::vector<int> owners_of(const RankGroup& group, int cells, const std::vector<
     for (int rank = 0; rank < ranks; ++rank)
         for (const int cell : questions[rank]) answers[rank].push_back(keeper[cell]);
 
-    const ByRank<int> told = all_to_all(group, answers);
+    const ByRank<int> replies = all_to_all(group, answers);
     std::vector<std::size_t> next(ranks, 0);
     std::vector<int> owners;
     for (const int cell : wanted) {
         const int rank = cell / stretch;
         // Answers come in the order of the questions.
-        owners.push_back(told[rank][next[rank]++]);
+        owners.push_back(replies[rank][next[rank]++]);
     }
     return owners;
 }

@@ -36,9 +36,9 @@ bool any_of_all(bool mine, MPI_Comm communicator) {
 }  // namespace
 
 void LammpsMdHost::join(MPI_Comm communicator) {
-    communicator_ = communicator;
-    MPI_Comm_rank(communicator, &rank_);
-    MPI_Comm_size(communicator, &ranks_);
+    ranks_.communicator = communicator;
+    MPI_Comm_rank(communicator, &ranks_.own);
+    MPI_Comm_size(communicator, &ranks_.size);
     lammps_ = std::make_unique<Library>(communicator);
 }
 
@@ -56,15 +56,15 @@ void LammpsMdHost::create(const Settings& settings, const ShapeTable&, const nsc
     law_.emplace(settings);
     stride_ = std::max<std::int64_t>(
         1, std::llround(settings.real("contact.md_substeps") / probes_per_contact));
-    classes_.emplace(bodies.mass, communicator_);
+    classes_.emplace(bodies.mass, ranks_.communicator);
     walls_ = wall_fixes(*classes_, borders_);
     // A rank without grains must not decide: the size of the domain is larger than any radius.
     double radius = size_[0];
     for (const double r : bodies.radius) radius = std::min(radius, r);
-    skin_ = neighbour_margin * smallest_of_all(radius, communicator_);
+    skin_ = neighbour_margin * smallest_of_all(radius, ranks_.communicator);
     declare_box(*lammps_, run.dimension, size_, period, classes_->masses().size());
     declare_properties(*lammps_, run.dimension);
-    grains_->create(bodies, *classes_, communicator_);
+    grains_->create(bodies, *classes_, ranks_.communicator);
     start_engines();
 }
 
@@ -184,24 +184,24 @@ void LammpsMdHost::probe() {
 
 void LammpsMdHost::follow_grains() {
     // On one rank grains keep their places, in whatever order LAMMPS has them.
-    if (ranks_ == 1) return;
-    order_ = new_order(grains_->origins(), rank_);
+    if (ranks_.size == 1) return;
+    order_ = new_order(grains_->origins(), ranks_.own);
     const bool arrived = std::any_of(order_.begin(), order_.end(),
-                                     [this](const Origin& o) { return o.rank != rank_; });
-    migrated_ = any_of_all(arrived, communicator_);
-    if (migrated_) grains_->number(order_, rank_);
+                                     [this](const Origin& o) { return o.rank != ranks_.own; });
+    migrated_ = any_of_all(arrived, ranks_.communicator);
+    if (migrated_) grains_->number(order_, ranks_.own);
 }
 
 std::vector<char> LammpsMdHost::migrate(const std::vector<char>& rows, std::size_t row_size) {
-    return fetch_rows(order_, rows, row_size, communicator_);
+    return fetch_rows(order_, rows, row_size, ranks_.communicator);
 }
 
 bool LammpsMdHost::on_all_ranks(bool here) {
-    return ranks_ == 1 ? here : !any_of_all(!here, communicator_);
+    return ranks_.size == 1 ? here : !any_of_all(!here, ranks_.communicator);
 }
 
 std::vector<GrainId> LammpsMdHost::from_all_ranks(const std::vector<GrainId>& ids) {
-    return gather_all(ids, communicator_);
+    return gather_all(ids, ranks_.communicator);
 }
 
 void LammpsMdHost::keep(const std::vector<std::uint8_t>& mask) {
@@ -212,12 +212,12 @@ void LammpsMdHost::keep(const std::vector<std::uint8_t>& mask) {
         if (!mask[place]) mine.push_back(tag[i]);
     });
     for (std::size_t place = 0; place < mask.size(); ++place)
-        if (mask[place]) stays.push_back({rank_, int(place)});
+        if (mask[place]) stays.push_back({ranks_.own, int(place)});
     // LAMMPS deletes grains in a command of all ranks, which needs the same list everywhere.
-    const std::vector<std::int64_t> gone = gather_all(mine, communicator_);
+    const std::vector<std::int64_t> gone = gather_all(mine, ranks_.communicator);
     if (gone.empty()) return;
     grains_->remove(gone);
-    grains_->number(stays, rank_);
+    grains_->number(stays, ranks_.own);
 }
 
 // ---- state -----------------------------------------------------------------------------------
@@ -225,14 +225,14 @@ void LammpsMdHost::keep(const std::vector<std::uint8_t>& mask) {
 /// LAMMPS' own restart file, springs included, with the grains of all ranks: the state of the first
 /// rank; others have none. Without `noinit` LAMMPS would move grains between ranks.
 SavedState LammpsMdHost::save() const {
-    const StateFile file(communicator_);
+    const StateFile file(ranks_.communicator);
     lammps_->command("write_restart " + file.name() + " noinit");
-    return rank_ == 0 ? file.read() : SavedState{};
+    return ranks_.own == 0 ? file.read() : SavedState{};
 }
 
 void LammpsMdHost::restore(const SavedState& state) {
-    const StateFile file(communicator_);
-    if (rank_ == 0) file.write(state);
+    const StateFile file(ranks_.communicator);
+    if (ranks_.own == 0) file.write(state);
     lammps_->command("clear");
     lammps_->command("read_restart " + file.name());
     // A restart file has atoms and their values, not the commands of the scene.

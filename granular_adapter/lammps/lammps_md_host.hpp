@@ -42,13 +42,18 @@ class LammpsMdHost final : public MdHost {
     SavedState save() const override;
     void restore(const SavedState& state) override;
 
-    bool shares_bodies() const override { return ranks_ > 1; }
+    bool shares_bodies() const override { return ranks_.size > 1; }
     bool migrated() const override { return migrated_; }
     std::vector<char> migrate(const std::vector<char>& rows, std::size_t row_size) override;
     bool on_all_ranks(bool here) override;
     std::vector<GrainId> from_all_ranks(const std::vector<GrainId>& ids) override;
 
  private:
+    struct Ranks {
+        MPI_Comm communicator = MPI_COMM_NULL;
+        int own = 0, size = 1;
+    };
+
     /// The sub-steps of the present window, counted by LAMMPS.
     struct Present {
         std::int64_t first = 0, last = 0;
@@ -67,8 +72,7 @@ class LammpsMdHost final : public MdHost {
     void follow_grains();
     void collect_impulses(SubstepReport& report) const;
 
-    MPI_Comm communicator_ = MPI_COMM_NULL;
-    int rank_ = 0, ranks_ = 1;
+    Ranks ranks_;
     std::unique_ptr<Library> lammps_;
     std::optional<RoundGrains> grains_;
     std::optional<SoftLaw> law_;

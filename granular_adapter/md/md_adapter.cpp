@@ -146,7 +146,7 @@ Motion MdAdapter::advance(const Window& window, const std::vector<FreeResponse>&
             ", but molecular dynamics cannot use them: use coupling.scheme split");
     if (!responses.empty()) repeat(window, responses);
     // The first round of a window, which later ones begin from.
-    if (responses.empty() && repeats_) start_ = save();
+    if (responses.empty() && repeats_) present_.start = save();
     Motion result = play(window);
     result.report.wall_seconds = report_.wall_seconds = seconds_since(start);
     return result;
@@ -165,14 +165,14 @@ void MdAdapter::repeat(const Window& window, const std::vector<FreeResponse>& ta
             held[i].angular_impulse +
             bodies_.world_inertia(i) * (ordered[i]->angular_velocity - found.spin);
     }
-    restore(start_);
+    restore(present_.start);
     held_ = std::move(held);
 }
 
 Motion MdAdapter::play(const Window& window) {
     host_.read(bodies_);
     agree([&] { check_inside(bodies_, borders_, in_window(window) + " before contacts"); });
-    advanced_ = true;
+    present_.advanced = true;
     if (broken_) return motion(at_protocol_positions());
     // Answered are q^n, at which the fluid solves step 5, and U^{n+4/5}: positions are taken before
     // the sub-steps, velocities and impulses after them.
@@ -181,12 +181,12 @@ Motion MdAdapter::play(const Window& window) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) loads.push_back(load(i, window.step));
     SubstepReport run = host_.run(substeps(window), loads);
     follow_migration(&sent);
-    orientation_at_start_ = sent.orientation;
+    present_.orientation_at_start = sent.orientation;
     host_.read(bodies_);
     agree([&] { check_inside(bodies_, borders_, in_window(window) + " after contacts"); });
     book_contacts(sent.twist, run, window.step);
-    contacts_.reset();
-    if (window.write_output) contacts_ = std::move(run.touching);
+    present_.contacts.reset();
+    if (window.write_output) present_.contacts = std::move(run.touching);
     sent.twist = bodies_.twist;
     sent.contact_impulse = bodies_.contact_impulse;
     sent.contact_angular_impulse = bodies_.contact_angular_impulse;
@@ -200,7 +200,7 @@ Motion MdAdapter::play(const Window& window) {
 /// J_c = cM (U^{n+4/5} - U^n) - J_h - weight dt, unless the host summed the impulses.
 void MdAdapter::book_contacts(const std::vector<Twist>& before, const SubstepReport& run,
                               double dt) {
-    touched_.assign(bodies_.size(), 0);
+    present_.touched.assign(bodies_.size(), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Vec3 weight{0.0, -bodies_.weight_mass[i] * run_.gravity * dt, 0.0};
         // cM (U^{n+4/5} - U^n), and the same for the spin
@@ -215,7 +215,7 @@ void MdAdapter::book_contacts(const std::vector<Twist>& before, const SubstepRep
                              bodies_.mass[i] * norm(before[i].velocity);
         // By the balance of momentum in all windows, also where the host has summed the impulses:
         // which grains are moved with the kick must not depend on whether a window has output.
-        touched_[i] = norm(impulse) > round_off * scale;
+        present_.touched[i] = norm(impulse) > round_off * scale;
         if (run.impulses.empty()) continue;
         // The host's sum has all forces but gravity: less the loads that it was given, J_c remains.
         const Load given = load(i, dt);
@@ -226,9 +226,9 @@ void MdAdapter::book_contacts(const std::vector<Twist>& before, const SubstepRep
 
 Motion MdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kicks) {
     const auto start = Clock::now();
-    if (!advanced_)
+    if (!present_.advanced)
         throw std::logic_error("apply_kick must be preceded by advance in the same window");
-    advanced_ = false;
+    present_.advanced = false;
     agree([&] {
         if (run_.wet || !kicks.empty()) take_kicks(window, kicks);
         check_inside(bodies_, borders_, in_window(window) + " after the kick");
@@ -236,7 +236,7 @@ Motion MdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kick
     if (!broken_) remove_leavers();
     report_.wall_seconds = seconds_since(start);
     Motion result = motion(at_protocol_positions());
-    result.contacts = std::exchange(contacts_, std::nullopt);
+    result.contacts = std::exchange(present_.contacts, std::nullopt);
     return result;
 }
 
@@ -263,12 +263,12 @@ void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks)
     const double lag = 0.5 * (window.step + velocity_lag());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Twist& now = bodies_.twist[i];
-        if (!touched_[i]) {
+        if (!present_.touched[i]) {
             bodies_.position[i] =
                 bodies_.position[i] + lag * (now.velocity - with_contact[i].velocity);
             // From t^n on about one axis: turns about two do not commute in space, and the state
             // must be that of t^n turned by dt omega^{n+1}.
-            bodies_.orientation[i] = rotated(orientation_at_start_[i], lag * now.spin);
+            bodies_.orientation[i] = rotated(present_.orientation_at_start[i], lag * now.spin);
         }
         // The multiplier impulse of this window is J_h of the next.
         if (hold_)
@@ -291,7 +291,7 @@ void MdAdapter::remove_leavers() {
         else
             gone.push_back(bodies_.id[i]);
     held_ = std::move(kept);
-    if (contacts_) drop_contacts_of(host_.from_all_ranks(gone), *contacts_);
+    if (present_.contacts) drop_contacts_of(host_.from_all_ranks(gone), *present_.contacts);
     bodies_.keep(stays);
     host_.keep(stays);
 }
@@ -347,7 +347,7 @@ void MdAdapter::restore(const SavedState& state) {
     held_ = reader.array<Held>();
     host_.restore(reader.array<char>());
     follow_migration(nullptr);
-    advanced_ = false;
+    present_.advanced = false;
 }
 
 }  // namespace turbidite

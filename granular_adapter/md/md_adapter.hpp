@@ -72,6 +72,15 @@ class MdAdapter final : public GrainsAdapter {
         Vec3 angular_impulse{};
     };
 
+    /// Of the present window.
+    struct Present {
+        SavedState start;                                    ///< if windows may be played again
+        std::vector<Quaternion> orientation_at_start;        ///< as it was sent
+        std::vector<std::uint8_t> touched;                   ///< whether a grain had a contact
+        std::optional<std::vector<ContactRecord>> contacts;  ///< if it has output
+        bool advanced = false;
+    };
+
     Motion play(const Window& window);
     void repeat(const Window& window, const std::vector<FreeResponse>& targets);
     double velocity_lag() const;
@@ -92,17 +101,12 @@ class MdAdapter final : public GrainsAdapter {
     RunValues run_;
     bool hold_ = true;
     bool repeats_ = false;            ///< windows may be played again
-    SavedState start_;                ///< of this window, if they may
     std::int64_t substep_count_ = 1;  ///< k
     std::vector<Border> borders_;
     nscd::PeriodicBox box_;
     nscd::Bodies bodies_;  ///< at the host's positions
     std::vector<Held> held_;
-    /// Whether a grain had a contact in this window.
-    std::vector<std::uint8_t> touched_;
-    std::vector<Quaternion> orientation_at_start_;        ///< of this window, as it was sent
-    std::optional<std::vector<ContactRecord>> contacts_;  ///< of this window, if it has output
-    bool advanced_ = false;
+    Present present_;
     bool broken_ = false;   ///< another rank has failed: nothing may be exchanged with it any more
     ContactReport report_;  ///< of this window
 };

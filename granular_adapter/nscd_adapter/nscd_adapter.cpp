@@ -53,16 +53,16 @@ nscd::Engine& initialised(const std::unique_ptr<nscd::Engine>& engine) {
 }  // namespace
 
 NscdAdapter::NscdAdapter(std::string adapter_name, std::string host_code)
-    : adapter_name_(std::move(adapter_name)), host_code_(std::move(host_code)) {
+    : names_{std::move(adapter_name), std::move(host_code)} {
     keep_freed_memory();
 }
 
 Hello NscdAdapter::describe() const {
     Hello hello;
     hello.role = Role::grains;
-    hello.adapter = adapter_name_;
+    hello.adapter = names_.adapter;
     hello.adapter_version = TURBIDITE_VERSION;
-    hello.host_code = host_code_;
+    hello.host_code = names_.host_code;
     hello.dimension = both_dimensions;
     hello.capabilities.saves_state = true;
     hello.capabilities.serialises_state = true;
@@ -81,8 +81,8 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     run_ = run_values(settings);
     positions_ = parse_positions(settings.text("coupling.positions"));
     borders_ = lay_borders(settings);
-    moved_walls_ = motions_of(settings, "run.wall_motions");
-    moved_grains_ = motions_of(settings, "run.grain_motions");
+    driven_.walls = motions_of(settings, "run.wall_motions");
+    driven_.grains = motions_of(settings, "run.grain_motions");
     std::vector<nscd::Wall> walls = walls_of(borders_);
     // Sides first, then the walls inside the box, whose keys follow theirs.
     for (const nscd::Wall& wall : inner_walls(settings)) walls.push_back(wall);
@@ -97,9 +97,9 @@ Motion NscdAdapter::initialise(const Settings& settings, const ShapeTable& shape
     });
     if (broken_) return motion();
     engine().check_periods();
-    start_twists_ = bodies().twist;
+    twists_.start = bodies().twist;
     // Velocities at t^n go with the bodies to other ranks, for rounds that begin again there.
-    engine().carry(start_twists_);
+    engine().carry(twists_.start);
     report_.max_penetration = engine_->max_penetration();
     report_.wall_seconds = watch.seconds();
     return motion();
@@ -112,11 +112,11 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
     // otherwise the others would wait in it for ever.
     agree([&] { check_inside(bodies(), borders_, in_window(window) + " before contacts"); });
     // After begin_round(), which keeps the velocities at t^n or restores them.
-    set_velocities(engine().walls(), moved_walls_, window.time, window.step);
-    set_velocities(bodies(), moved_grains_, window.time, window.step);
+    set_velocities(engine().walls(), driven_.walls, window.time, window.step);
+    set_velocities(bodies(), driven_.grains, window.time, window.step);
     const nscd::StepReport step = solve_contacts(window, responses);
     agree([&] { check_velocities(bodies(), in_window(window) + " after contacts"); });
-    contact_twists_ = bodies().twist;
+    twists_.contact = bodies().twist;
     report_ = report_of(step);
     report_.wall_seconds = watch.seconds();
     return motion();
@@ -125,11 +125,11 @@ Motion NscdAdapter::advance(const Window& window, const std::vector<FreeResponse
 // An advance that is repeated before the kick starts at t^n again; the contact impulses are kept.
 void NscdAdapter::begin_round() {
     // Empty after a kick: then this is the first round of a window.
-    const bool again = !contact_twists_.empty() && contact_twists_.size() == bodies().size();
+    const bool again = !twists_.contact.empty() && twists_.contact.size() == bodies().size();
     if (again)
-        bodies().twist = start_twists_;
+        bodies().twist = twists_.start;
     else
-        start_twists_ = bodies().twist;
+        twists_.start = bodies().twist;
 }
 
 nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
@@ -152,7 +152,7 @@ nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
 
 Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kicks) {
     const StopWatch watch;
-    if (contact_twists_.size() != bodies().size())
+    if (twists_.contact.size() != bodies().size())
         throw std::logic_error("apply_kick must be preceded by advance in the same window");
     dumps_.after(window, engine().problem());
     agree([&] {
@@ -173,17 +173,17 @@ Motion NscdAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     // and the case says so, q^n + dt U^{n+1}. Gaps were closed for U^{n+4/5}: after responses it is
     // always taken.
     const bool with_contact = answered_ || positions_ == Positions::contact;
-    engine().move(window.step, with_contact ? contact_twists_ : bodies().twist);
-    if (!moved_walls_.empty()) follow_walls(borders_, engine().walls());
-    contact_twists_.clear();
+    engine().move(window.step, with_contact ? twists_.contact : bodies().twist);
+    if (!driven_.walls.empty()) follow_walls(borders_, engine().walls());
+    twists_.contact.clear();
     remove_leavers();
-    start_twists_ = bodies().twist;
+    twists_.start = bodies().twist;
     agree([&] { check_places(bodies(), borders_, in_window(window) + " after motion"); });
     if (broken_) return motion();
-    report_.removed = static_cast<std::int64_t>(removed_.size());
+    report_.removed = static_cast<std::int64_t>(removed_.own.size());
     report_.max_penetration = engine().max_penetration_after_move();
     Motion result = motion();
-    if (contacts) drop_contacts_of(removed_anywhere_, *contacts);
+    if (contacts) drop_contacts_of(removed_.of_all_ranks, *contacts);
     result.contacts = std::move(contacts);
     result.report.wall_seconds = report_.wall_seconds = watch.seconds();
     return result;
@@ -196,9 +196,9 @@ SavedState NscdAdapter::save() const {
 void NscdAdapter::restore(const SavedState& state) {
     engine().restore(state);
     follow_walls(borders_, engine().walls());
-    contact_twists_.clear();
-    start_twists_ = bodies().twist;
-    removed_.clear();
+    twists_.contact.clear();
+    twists_.start = bodies().twist;
+    removed_.own.clear();
 }
 
 void NscdAdapter::restore_from(const std::vector<SavedState>& of_ranks) {
@@ -209,9 +209,9 @@ void NscdAdapter::restore_from(const std::vector<SavedState>& of_ranks) {
     for (const int rank : even_shares(grain_states(bodies()), ranks)) mine.push_back(rank == own);
     engine().keep(mine);
     follow_walls(borders_, engine().walls());
-    contact_twists_.clear();
-    start_twists_ = bodies().twist;
-    removed_.clear();
+    twists_.contact.clear();
+    twists_.start = bodies().twist;
+    removed_.own.clear();
 }
 
 bool NscdAdapter::on_any_rank(bool here) const {
@@ -260,12 +260,12 @@ nscd::EngineSettings NscdAdapter::engine_settings(const Settings& settings) cons
 void NscdAdapter::remove_leavers() {
     const nscd::Bodies& all = bodies();
     const std::vector<std::uint8_t> stays = those_inside(all, borders_);
-    removed_.clear();
+    removed_.own.clear();
     for (std::size_t i = 0; i < all.size(); ++i)
-        if (!stays[i]) removed_.push_back(all.id[i]);
-    removed_anywhere_ = ranks_ ? nscd::gathered(*ranks_, removed_) : removed_;
+        if (!stays[i]) removed_.own.push_back(all.id[i]);
+    removed_.of_all_ranks = ranks_ ? nscd::gathered(*ranks_, removed_.own) : removed_.own;
     // On all ranks if on one: keep() also forgets the points of the step, which ranks share.
-    if (!removed_anywhere_.empty()) engine().keep(stays);
+    if (!removed_.of_all_ranks.empty()) engine().keep(stays);
 }
 
 Motion NscdAdapter::motion() const {

@@ -87,10 +87,25 @@ class NscdAdapter final : public GrainsAdapter {
     void take_over_contacts(const std::vector<char>& bytes) { engine().restore_memory(bytes); }
 
     /// Ids of the grains removed by the last apply_kick.
-    const std::vector<GrainId>& removed() const { return removed_; }
+    const std::vector<GrainId>& removed() const { return removed_.own; }
 
  private:
     enum class Positions { corrected, contact };
+    struct Names {
+        std::string adapter, host_code;
+    };
+    /// Motions that the case prescribes.
+    struct Driven {
+        std::vector<Moved> walls, grains;
+    };
+    struct WindowTwists {
+        std::vector<Twist> start;    ///< U^n
+        std::vector<Twist> contact;  ///< U^{n+4/5}; empty after the kick
+    };
+    /// By the last kick.
+    struct Removed {
+        std::vector<GrainId> own, of_all_ranks;
+    };
 
     static Positions parse_positions(const std::string& text);
     nscd::EngineSettings engine_settings(const Settings& settings) const;
@@ -105,22 +120,19 @@ class NscdAdapter final : public GrainsAdapter {
 
     nscd::RankExchange* ranks_ = nullptr;  ///< none: one rank
     bool broken_ = false;                  ///< a check has failed on another rank
-    std::string adapter_name_;
-    std::string host_code_;
+    Names names_;
     std::filesystem::path run_folder_ = ".";
     ProblemDumps dumps_;
     RunValues run_;
     bool answered_ = false;  ///< the fluid has sent responses in this window
     Positions positions_ = Positions::corrected;
     std::vector<Border> borders_;
-    std::vector<Moved> moved_walls_, moved_grains_;
+    Driven driven_;
     std::unique_ptr<nscd::Engine> engine_;
-    std::vector<Twist> start_twists_;    ///< U^n of this window
-    std::vector<Twist> contact_twists_;  ///< U^{n+4/5} of this window
-    std::vector<GrainId> removed_;
-    std::vector<GrainId> removed_anywhere_;  ///< the same on all ranks
-    std::optional<GrainId> light_;           ///< the first grain that is not denser than the fluid
-    ContactReport report_;                   ///< of this window
+    WindowTwists twists_;
+    Removed removed_;
+    std::optional<GrainId> light_;  ///< the first grain that is not denser than the fluid
+    ContactReport report_;          ///< of this window
 };
 
 }  // namespace turbidite

@@ -92,14 +92,14 @@ void PhaseWindow::allocate(std::size_t doubles) {
 void PhaseWindow::prepare(const std::vector<Traffic>& phases) {
     const auto ranks = static_cast<std::size_t>(ranks_);
     // By receiver, its offsets of all phases: what it needs to know lies together.
-    std::vector<unsigned long long> told(phases.size() * ranks), got(told.size());
+    std::vector<unsigned long long> offsets(phases.size() * ranks), got(offsets.size());
     sent_at_.assign(phases.size() * ranks, 0), received_at_ = sent_at_;
     // The first line of each part is its count of phases.
     unsigned long long end = line;
     std::vector<char> meets(ranks, 0);
     for (std::size_t phase = 0; phase < phases.size(); ++phase)
         for (std::size_t rank = 0; rank < ranks; ++rank) {
-            sent_at_[phase * ranks + rank] = told[rank * phases.size() + phase] = end;
+            sent_at_[phase * ranks + rank] = offsets[rank * phases.size() + phase] = end;
             // Whole lines of the cache, so that no two ranks read and write parts of the same line.
             end += whole_lines(phases[phase].sent[rank]);
             if (phases[phase].sent[rank] + phases[phase].received[rank] > 0) meets[rank] = 1;
@@ -108,7 +108,7 @@ void PhaseWindow::prepare(const std::vector<Traffic>& phases) {
     for (std::size_t rank = 0; rank < ranks; ++rank)
         if (meets[rank] != 0) partners_.push_back(static_cast<int>(rank));
     const int count = static_cast<int>(phases.size());
-    PMPI_Alltoall(told.data(), count, MPI_UNSIGNED_LONG_LONG, got.data(), count,
+    PMPI_Alltoall(offsets.data(), count, MPI_UNSIGNED_LONG_LONG, got.data(), count,
                   MPI_UNSIGNED_LONG_LONG, communicator_);
     for (std::size_t phase = 0; phase < phases.size(); ++phase)
         for (std::size_t rank = 0; rank < ranks; ++rank)

@@ -10,14 +10,14 @@ namespace {
 
 class Dry final : public Scheme {
  public:
-    WindowResult play(const Window& window, const Motion& before, Cast cast) override {
-        cast.grains.send_all(Kind::window, window);
-        cast.grains.send_all(Kind::kick, Kicks{});
+    WindowResult play(const Window& window, const Motion& before, SchemeContext context) override {
+        context.grains.send_all(Kind::window, window);
+        context.grains.send_all(Kind::kick, Kicks{});
         WindowResult result;
-        receive_state(window, before, cast, result);
+        receive_state(window, before, context, result);
         result.motion.report = result.state.report;
         result.motion.report.wall_seconds = 0.0;  // counted once, in the state
-        result.grain_balance = cast.kick_rule.balance(before, result.state, window.step);
+        result.grain_balance = context.kick_rule.balance(before, result.state, window.step);
         return result;
     }
 };

@@ -18,8 +18,8 @@ namespace {
 
 /// Waits for one message of every rank and checks the numbers in it.
 template <class Record>
-std::vector<Record> receive(ParticipantLink& from, const Arrival& arrival, Cast& cast) {
-    cast.watch.wait_for(from, arrival.kind());
+std::vector<Record> receive(ParticipantLink& from, const Arrival& arrival, SchemeContext& context) {
+    context.watch.wait_for(from, arrival.kind());
     std::vector<Record> shares = from.take<Record>(arrival.kind());
     // Numbers before grains: the checks that follow compute with them.
     for (int rank = 0; rank < from.ranks(); ++rank) arrival.check(rank, shares[rank]);
@@ -31,12 +31,12 @@ struct Grains {
     std::vector<Leaver> leavers;
 };
 
-Grains receive_grains(const Arrival& arrival, Cast& cast) {
-    auto shares = receive<Motion>(cast.grains, arrival, cast);
+Grains receive_grains(const Arrival& arrival, SchemeContext& context) {
+    auto shares = receive<Motion>(context.grains, arrival, context);
     // Then ids, since contacts name grains, and only then one list out of the shares of all ranks.
-    std::vector<Leaver> leavers = cast.roster.check(shares, arrival);
-    check_contacts(shares, cast.roster, arrival);
-    return {cast.plan.gather(std::move(shares)), std::move(leavers)};
+    std::vector<Leaver> leavers = context.roster.check(shares, arrival);
+    check_contacts(shares, context.roster, arrival);
+    return {context.plan.gather(std::move(shares)), std::move(leavers)};
 }
 
 /// All ranks of a fluid solve together and find the same.
@@ -108,33 +108,35 @@ Kicks merged(const std::vector<Kicks>& shares) {
 
 }  // namespace
 
-Motion receive_start(Cast& cast) {
+Motion receive_start(SchemeContext& context) {
     // -1: before the first window.
-    const Arrival arrival(cast.grains, Kind::state, -1);
-    Grains received = receive_grains(arrival, cast);
-    cast.motion_rule.check_start(received.leavers, {received.motion, cast.plan.owners(), arrival});
+    const Arrival arrival(context.grains, Kind::state, -1);
+    Grains received = receive_grains(arrival, context);
+    context.motion_rule.check_start(received.leavers,
+                                    {received.motion, context.plan.owners(), arrival});
     return std::move(received.motion);
 }
 
-Motion receive_motion(const Window& window, const Motion& before, Cast& cast) {
-    const Arrival arrival(cast.grains, Kind::motion, window.index);
-    Motion motion = receive_grains(arrival, cast).motion;
-    cast.motion_rule.check_motion(window, before, {motion, cast.plan.owners(), arrival});
+Motion receive_motion(const Window& window, const Motion& before, SchemeContext& context) {
+    const Arrival arrival(context.grains, Kind::motion, window.index);
+    Motion motion = receive_grains(arrival, context).motion;
+    context.motion_rule.check_motion(window, before, {motion, context.plan.owners(), arrival});
     return motion;
 }
 
-void receive_state(const Window& window, const Motion& before, Cast& cast, WindowResult& result) {
-    const Arrival arrival(cast.grains, Kind::state, window.index);
-    Grains received = receive_grains(arrival, cast);
+void receive_state(const Window& window, const Motion& before, SchemeContext& context,
+                   WindowResult& result) {
+    const Arrival arrival(context.grains, Kind::state, window.index);
+    Grains received = receive_grains(arrival, context);
     result.state = std::move(received.motion);
-    result.motion_defect = cast.motion_rule.check_state(
-        window, before, result, received.leavers, {result.state, cast.plan.owners(), arrival});
+    result.motion_defect = context.motion_rule.check_state(
+        window, before, result, received.leavers, {result.state, context.plan.owners(), arrival});
 }
 
-std::vector<FreeResponse> receive_responses(const Window& window, Cast& cast) {
-    const Arrival arrival(*cast.fluid, Kind::response, window.index);
-    const auto shares = receive<std::vector<FreeResponse>>(*cast.fluid, arrival, cast);
-    cast.roster.check(shares, arrival);
+std::vector<FreeResponse> receive_responses(const Window& window, SchemeContext& context) {
+    const Arrival arrival(*context.fluid, Kind::response, window.index);
+    const auto shares = receive<std::vector<FreeResponse>>(*context.fluid, arrival, context);
+    context.roster.check(shares, arrival);
     std::vector<FreeResponse> responses;
     for (const auto& share : shares) responses.insert(responses.end(), share.begin(), share.end());
     return responses;
@@ -142,44 +144,46 @@ std::vector<FreeResponse> receive_responses(const Window& window, Cast& cast) {
 
 std::vector<FreeResponse> play_contact_round(const Window& window, const Motion& before,
                                              const std::vector<std::vector<FreeResponse>>& inputs,
-                                             Cast& cast, WindowResult& result) {
-    cast.grains.send_each(Kind::contact_input, inputs);
+                                             SchemeContext& context, WindowResult& result) {
+    context.grains.send_each(Kind::contact_input, inputs);
     // Work of earlier rounds; residuals, overlaps and counts are those of the last one.
     const ContactReport so_far = result.motion.report;
-    result.motion = receive_motion(window, before, cast);
+    result.motion = receive_motion(window, before, context);
     result.motion.report.iterations += so_far.iterations;
     result.motion.report.wall_seconds += so_far.wall_seconds;
-    cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
+    context.fluid->send_each(Kind::constraint, context.plan.by_place(result.motion));
     ++result.joint->rounds;
-    return receive_responses(window, cast);
+    return receive_responses(window, context);
 }
 
-void send_accept(Cast& cast) {
-    for (int rank = 0; rank < cast.fluid->ranks(); ++rank) cast.fluid->send(rank, Kind::accept);
+void send_accept(SchemeContext& context) {
+    for (int rank = 0; rank < context.fluid->ranks(); ++rank)
+        context.fluid->send(rank, Kind::accept);
 }
 
-void finish_window(const Window& window, const Motion& before, Cast& cast, WindowResult& result) {
-    const Arrival arrival(*cast.fluid, Kind::kicks, window.index);
-    const auto shares = receive<Kicks>(*cast.fluid, arrival, cast);
-    cast.roster.check(shares, arrival);
+void finish_window(const Window& window, const Motion& before, SchemeContext& context,
+                   WindowResult& result) {
+    const Arrival arrival(*context.fluid, Kind::kicks, window.index);
+    const auto shares = receive<Kicks>(*context.fluid, arrival, context);
+    context.roster.check(shares, arrival);
     check_given_motions(shares, result.motion, window.step, arrival);
     result.kicks = merged(shares);
     // Forces and torques before the kicks leave: hosts that want forces get them with the
     // velocities.
-    cast.kick_rule.complete(result.kicks.kicks, before, window.step);
+    context.kick_rule.complete(result.kicks.kicks, before, window.step);
 
     std::vector<Kicks> routed;
-    for (auto& kicks : cast.plan.by_owner(result.kicks.kicks))
+    for (auto& kicks : context.plan.by_owner(result.kicks.kicks))
         // The report is that of the whole fluid, the same for every grains rank.
         routed.push_back({std::move(kicks), result.kicks.report});
-    cast.grains.send_each(Kind::kick, routed);
+    context.grains.send_each(Kind::kick, routed);
     // While the grains move.
     const GrainBalance balance =
-        cast.kick_rule.balance(result.kicks.kicks, before, result.motion, window.step);
-    receive_state(window, before, cast, result);
+        context.kick_rule.balance(result.kicks.kicks, before, result.motion, window.step);
+    receive_state(window, before, context, result);
     // Only now are the velocities and impulses of the state known, which output is written from.
     result.grain_balance =
-        cast.kick_rule.with_state(balance, result.kicks.kicks, result.motion, result.state);
+        context.kick_rule.with_state(balance, result.kicks.kicks, result.motion, result.state);
 }
 
 }  // namespace turbidite

@@ -35,30 +35,30 @@ class Joint final : public Scheme {
         : tolerance_(settings.real("coupling.tolerance") * run_values(settings).velocity),
           most_rounds_(settings.integer("coupling.iterations")) {}
 
-    WindowResult play(const Window& window, const Motion& before, Cast cast) override {
-        cast.fluid->send_all(Kind::window, window);  // steps 1-3 begin
-        cast.grains.send_all(Kind::window, window);
+    WindowResult play(const Window& window, const Motion& before, SchemeContext context) override {
+        context.fluid->send_all(Kind::window, window);  // steps 1-3 begin
+        context.grains.send_all(Kind::window, window);
         // With U^n: the fluid lets the grains fall for this window as if there were no contacts.
-        cast.fluid->send_each(Kind::bodies, cast.plan.by_place(before));
+        context.fluid->send_each(Kind::bodies, context.plan.by_place(before));
         WindowResult result;
         result.joint = JointReport{};
-        Responses responses = receive_responses(window, cast);
+        Responses responses = receive_responses(window, context);
         // At least one round. A window that uses up coupling.iterations goes on: U' keeps the
         // momentum of grains and fluid and violates contacts a little, which the next window
         // corrects.
-        do responses = play_round(window, before, std::move(responses), cast, result);
+        do responses = play_round(window, before, std::move(responses), context, result);
         while (!result.joint->converged && result.joint->rounds < most_rounds_);
-        send_accept(cast);
-        finish_window(window, before, cast, result);
+        send_accept(context);
+        finish_window(window, before, context, result);
         return result;
     }
 
  private:
     /// One contact solve and the fluid's response.
     Responses play_round(const Window& window, const Motion& before, Responses responses,
-                         Cast& cast, WindowResult& result) const {
+                         SchemeContext& context, WindowResult& result) const {
         Responses corrected = play_contact_round(
-            window, before, cast.plan.by_owner(std::move(responses)), cast, result);
+            window, before, context.plan.by_owner(std::move(responses)), context, result);
         JointReport& report = *result.joint;
         report.mismatch = largest_mismatch(corrected);
         report.converged = report.mismatch <= tolerance_;

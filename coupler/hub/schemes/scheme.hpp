@@ -20,7 +20,7 @@
 namespace turbidite {
 
 /// The participants of a run.
-struct Cast {
+struct SchemeContext {
     ParticipantLink& grains;
     ParticipantLink* fluid;  ///< null in dry runs
     Watch& watch;
@@ -34,7 +34,8 @@ class Scheme {
  public:
     virtual ~Scheme() = default;
     /// `before` is the state at t^n.
-    virtual WindowResult play(const Window& window, const Motion& before, Cast cast) = 0;
+    virtual WindowResult play(const Window& window, const Motion& before,
+                              SchemeContext context) = 0;
 };
 
 struct SchemeEntry {

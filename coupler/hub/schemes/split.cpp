@@ -12,14 +12,14 @@ namespace {
 
 class Split final : public Scheme {
  public:
-    WindowResult play(const Window& window, const Motion& before, Cast cast) override {
-        cast.fluid->send_all(Kind::window, window);  // steps 1-3 begin
-        cast.grains.send_all(Kind::window, window);  // step 4 begins
+    WindowResult play(const Window& window, const Motion& before, SchemeContext context) override {
+        context.fluid->send_all(Kind::window, window);  // steps 1-3 begin
+        context.grains.send_all(Kind::window, window);  // step 4 begins
         WindowResult result;
-        result.motion = receive_motion(window, before, cast);
-        cast.fluid->send_each(Kind::constraint, cast.plan.by_place(result.motion));
-        send_accept(cast);
-        finish_window(window, before, cast, result);
+        result.motion = receive_motion(window, before, context);
+        context.fluid->send_each(Kind::constraint, context.plan.by_place(result.motion));
+        send_accept(context);
+        finish_window(window, before, context, result);
         return result;
     }
 };

@@ -89,16 +89,16 @@ class SubIterated final : public Scheme {
         : tolerance_(settings.real("coupling.tolerance") * run_values(settings).velocity),
           most_rounds_(settings.integer("coupling.iterations")) {}
 
-    WindowResult play(const Window& window, const Motion& before, Cast cast) override {
-        cast.fluid->send_all(Kind::window, window);  // steps 1-3 begin
-        cast.grains.send_all(Kind::window, window);
+    WindowResult play(const Window& window, const Motion& before, SchemeContext context) override {
+        context.fluid->send_all(Kind::window, window);  // steps 1-3 begin
+        context.grains.send_all(Kind::window, window);
         WindowResult result;
         result.joint = JointReport{};
         QuasiNewton iteration;
         // Empty lists in the first round: grains begin with the impulse that they hold already.
-        std::vector<Responses> inputs(static_cast<std::size_t>(cast.grains.ranks()));
+        std::vector<Responses> inputs(static_cast<std::size_t>(context.grains.ranks()));
         for (;;) {
-            const Responses corrected = play_contact_round(window, before, inputs, cast, result);
+            const Responses corrected = play_contact_round(window, before, inputs, context, result);
             const Eigen::VectorXd off = disagreement(result.motion, corrected);
             JointReport& report = *result.joint;
             report.mismatch = largest_of(off);
@@ -106,10 +106,10 @@ class SubIterated final : public Scheme {
             if (report.converged || report.rounds >= most_rounds_) break;
             // The next x less the present one, on top of the U^{n+4/5} that the present one has led
             // to.
-            inputs = cast.plan.by_owner(targets(result.motion, iteration.step(off)));
+            inputs = context.plan.by_owner(targets(result.motion, iteration.step(off)));
         }
-        send_accept(cast);
-        finish_window(window, before, cast, result);
+        send_accept(context);
+        finish_window(window, before, context, result);
         return result;
     }
 

@@ -82,7 +82,7 @@ StepReport Engine::step_from(const std::vector<Twist>& free, double dt) {
 
 void Engine::share_with(RankExchange& ranks) {
     check_ranks(settings_.solver, *solver_);
-    ranks_ = std::make_unique<RankDomain>(ranks);
+    shared_.ranks = std::make_unique<RankDomain>(ranks);
 }
 
 StepReport Engine::step_from(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
@@ -95,10 +95,10 @@ StepReport Engine::step_from(const std::vector<Twist>& free, Mobilities mobiliti
         throw std::invalid_argument("the mobilities of a contact step are of dimension " +
                                     std::to_string(dimension(mobilities)) + ", the engine of " +
                                     std::to_string(settings_.dimension));
-    if (!ranks_) check_periods();
+    if (!shared_.ranks) check_periods();
     release_step();
     look_ahead(free, dt);
-    if (!ranks_) return solve_step(free, std::move(mobilities), dt);
+    if (!shared_.ranks) return solve_step(free, std::move(mobilities), dt);
     std::vector<Twist> all = free;
     gather_bodies(all, mobilities);
     return solve_step(all, std::move(mobilities), dt);
@@ -112,8 +112,8 @@ StepReport Engine::solve_step(const std::vector<Twist>& free, Mobilities mobilit
 }
 
 void Engine::check_periods() {
-    if (ranks_)
-        ranks_->check_periods(bodies_, settings_.box);
+    if (shared_.ranks)
+        shared_.ranks->check_periods(bodies_, settings_.box);
     else
         nscd::check_periods(bodies_.radius, settings_.box);
 }
@@ -121,9 +121,9 @@ void Engine::check_periods() {
 /// How far surfaces can approach each other (reach.hpp), over all ranks.
 double Engine::bound(const std::vector<Twist>& twists, double dt) const {
     const double corners = detection_.has_corners() ? corner_speed(bodies_, twists) : 0.0;
-    if (!ranks_) return approach_bound(bodies_, walls_, twists, corners, dt);
-    RankExchange& ranks = ranks_->ranks();
-    return largest(ranks, approach_bound(bodies_, walls_, ranks_->extremes(twists),
+    if (!shared_.ranks) return approach_bound(bodies_, walls_, twists, corners, dt);
+    RankExchange& ranks = shared_.ranks->ranks();
+    return largest(ranks, approach_bound(bodies_, walls_, shared_.ranks->extremes(twists),
                                          largest(ranks, corners), dt));
 }
 
@@ -136,18 +136,18 @@ void Engine::look_ahead(const std::vector<Twist>& free, double dt) {
 /// Gives bodies that have crossed cells to other ranks, and gets copies of those near the own
 /// cells.
 void Engine::gather_bodies(std::vector<Twist>& free, Mobilities& mobilities) {
-    grid_ = std::make_unique<ParityGrid>(ranks_->sizes(bodies_, settings_.box), settings_.box,
-                                         reach_, alert_share);
+    shared_.grid = std::make_unique<ParityGrid>(shared_.ranks->sizes(bodies_, settings_.box),
+                                                settings_.box, reach_, alert_share);
     // In this order: copies come from the ranks to which the bodies belong now, and detection takes
     // the own bodies to be the first ones.
-    ranks_->settle(*grid_, share({&free}, &mobilities));
-    present_ = bodies_;
-    ranks_->add_copies(*grid_, present_, {&free}, &mobilities);
+    shared_.ranks->settle(*shared_.grid, share({&free}, &mobilities));
+    shared_.present = bodies_;
+    shared_.ranks->add_copies(*shared_.grid, shared_.present, {&free}, &mobilities);
 }
 
 /// Everything that goes with the bodies to another rank.
 RankShare Engine::share(std::vector<std::vector<Twist>*> twists, Mobilities* mobilities) {
-    twists.insert(twists.end(), carried_.begin(), carried_.end());
+    twists.insert(twists.end(), shared_.carried.begin(), shared_.carried.end());
     return {bodies_, std::move(twists), mobilities, memory_, turning_memory_, laws_.states()};
 }
 
@@ -155,8 +155,8 @@ RankShare Engine::share(std::vector<std::vector<Twist>*> twists, Mobilities* mob
 /// fits into the cache, and its pages mapped where it does not.
 void Engine::release_step() {
     const auto release = [](auto& array) { array = std::remove_reference_t<decltype(array)>(); };
-    release(points_), release(problem_.contacts);
-    release(guess_), release(solution_), release(impulses_);
+    release(contacts_.points), release(contacts_.problem.contacts);
+    release(contacts_.guess), release(contacts_.solution), release(contacts_.impulses);
 }
 
 /// Finds every contact point that may close within the step.
@@ -164,20 +164,22 @@ void Engine::detect() {
     placed_walls_ = placed_walls(reach_);
     const Detection::Search search{bodies_of_points(), placed_walls_, settings_.gravity, reach_,
                                    alert_share};
-    OrderedPoints found = ranks_ ? detection_.ordered_points(search, *grid_, bodies_.size())
-                                 : detection_.ordered_points(search);
-    problem_ = {};
-    if (ranks_) problem_.ranks = &ranks_->plan(*grid_, present_, found);
-    points_ = std::move(found.points);
-    problem_.cells = std::move(found.cells);
+    OrderedPoints found = shared_.ranks
+                              ? detection_.ordered_points(search, *shared_.grid, bodies_.size())
+                              : detection_.ordered_points(search);
+    contacts_.problem = {};
+    if (shared_.ranks)
+        contacts_.problem.ranks = &shared_.ranks->plan(*shared_.grid, shared_.present, found);
+    contacts_.points = std::move(found.points);
+    contacts_.problem.cells = std::move(found.cells);
     // Before the keys, which contain the features.
-    if (placed_walls_.size() > walls_.size()) name_images(placed_walls_, points_);
-    keys_.clear();
-    keys_.reserve(points_.size());
-    deepest_ = 0.0;
-    for (const ContactPoint& point : points_) {
-        keys_.push_back(key(point));
-        deepest_ = std::max(deepest_, -point.gap);
+    if (placed_walls_.size() > walls_.size()) name_images(placed_walls_, contacts_.points);
+    contacts_.keys.clear();
+    contacts_.keys.reserve(contacts_.points.size());
+    contacts_.deepest = 0.0;
+    for (const ContactPoint& point : contacts_.points) {
+        contacts_.keys.push_back(key(point));
+        contacts_.deepest = std::max(contacts_.deepest, -point.gap);
     }
 }
 
@@ -197,41 +199,43 @@ std::vector<Wall> Engine::placed_walls(double reach) const {
 
 /// Sets up the contact problem of these points under the laws, and the initial guess.
 void Engine::pose(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
-    ContactProblem posed =
-        laws_.pose({points_, keys_, bodies_of_points(), placed_walls_}, free, std::move(mobilities),
-                   {std::move(problem_.cells), problem_.ranks}, dt);
-    problem_ = std::move(posed);
-    guess_ = initial_guess(dt);
+    ContactProblem posed = laws_.pose(
+        {contacts_.points, contacts_.keys, bodies_of_points(), placed_walls_}, free,
+        std::move(mobilities), {std::move(contacts_.problem.cells), contacts_.problem.ranks}, dt);
+    contacts_.problem = std::move(posed);
+    contacts_.guess = initial_guess(dt);
 }
 
 Impulses Engine::initial_guess(double dt) const {
-    if (!in_space()) return memory_.guesses(keys_, dt);
-    Impulses guess = from_world_axes(problem_, memory_.guesses(keys_, dt));
+    if (!in_space()) return memory_.guesses(contacts_.keys, dt);
+    Impulses guess = from_world_axes(contacts_.problem, memory_.guesses(contacts_.keys, dt));
     // All ranks or none have moments: passes over them exchange bodies between ranks.
-    if (on_any_rank(problem_, !turning_memory_.contacts().empty()))
-        guess.moments = moments_of(turning_memory_.guesses(keys_, dt));
+    if (on_any_rank(contacts_.problem, !turning_memory_.contacts().empty()))
+        guess.moments = moments_of(turning_memory_.guesses(contacts_.keys, dt));
     return guess;
 }
 
 /// The initial guess of the next step.
 void Engine::remember(const Impulses& found, double dt) {
-    if (!in_space()) return memory_.remember(keys_, found, dt);
-    memory_.remember(keys_, in_world_axes(problem_, found), dt);
+    if (!in_space()) return memory_.remember(contacts_.keys, found, dt);
+    memory_.remember(contacts_.keys, in_world_axes(contacts_.problem, found), dt);
     if (found.moments.empty())
         turning_memory_.forget();
     else
-        turning_memory_.remember(keys_, kept_moments(found), dt);
+        turning_memory_.remember(contacts_.keys, kept_moments(found), dt);
 }
 
 /// Solves the problem; if corners rotate fast, again with gaps reduced by the shortfall
 /// (corner_turn.hpp). The iterations are summed over all solves.
 SolverResult Engine::solve(double dt) {
-    SolverResult result = solver_->solve(problem_, guess_, settings_.solver_settings);
+    SolverResult result =
+        solver_->solve(contacts_.problem, contacts_.guess, settings_.solver_settings);
     if (!detection_.has_corners()) return result;
-    std::vector<double> shortfalls(points_.size(), 0.0);
+    std::vector<double> shortfalls(contacts_.points.size(), 0.0);
     for (int round = 0; round < turn_rounds; ++round) {
         if (!(take_turns(result.velocities, shortfalls, dt) > turn_share)) break;
-        SolverResult next = solver_->solve(problem_, result.impulses, settings_.solver_settings);
+        SolverResult next =
+            solver_->solve(contacts_.problem, result.impulses, settings_.solver_settings);
         next.iterations += result.iterations;
         result = std::move(next);
     }
@@ -243,12 +247,12 @@ SolverResult Engine::solve(double dt) {
 double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
                           double dt) {
     const Bodies& bodies = bodies_of_points();
-    const std::vector<double> found =
-        gap_shortfalls({points_, problem_.contacts, bodies, placed_walls_, velocities, dt},
-                       detection_.narrow_phase());
+    const std::vector<double> found = gap_shortfalls(
+        {contacts_.points, contacts_.problem.contacts, bodies, placed_walls_, velocities, dt},
+        detection_.narrow_phase());
     double change_of_any = 0.0;
     for (std::size_t k = 0; k < found.size(); ++k) {
-        Contact& contact = problem_.contacts[k];
+        Contact& contact = contacts_.problem.contacts[k];
         // A corner that ends farther away than foreseen does no harm: only positive shortfalls
         // count, and only their change since the last round, since earlier ones are in the bias
         // already.
@@ -263,7 +267,7 @@ double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<doub
         contact.bias.n -= change / dt;
         shortfalls[k] = wanted;
     }
-    return ranks_ ? largest(ranks_->ranks(), change_of_any) : change_of_any;
+    return shared_.ranks ? largest(shared_.ranks->ranks(), change_of_any) : change_of_any;
 }
 
 void Engine::move(double dt) {
@@ -281,15 +285,15 @@ void Engine::move(double dt, const std::vector<Twist>& velocities) {
 }
 
 double Engine::max_penetration() {
-    if (!ranks_) return detection_.deepest_overlap(bodies_, placed_walls(0.0));
+    if (!shared_.ranks) return detection_.deepest_overlap(bodies_, placed_walls(0.0));
     forget_step();
     // Reach and share zero: only pairs that overlap count here.
-    grid_ = std::make_unique<ParityGrid>(ranks_->sizes(bodies_, settings_.box), settings_.box, 0.0,
-                                         0.0);
-    ranks_->settle(*grid_, share({}, nullptr));
-    present_ = bodies_;
-    ranks_->add_copies(*grid_, present_, {}, nullptr);
-    return detection_.deepest_overlap(present_, placed_walls(0.0));
+    shared_.grid = std::make_unique<ParityGrid>(shared_.ranks->sizes(bodies_, settings_.box),
+                                                settings_.box, 0.0, 0.0);
+    shared_.ranks->settle(*shared_.grid, share({}, nullptr));
+    shared_.present = bodies_;
+    shared_.ranks->add_copies(*shared_.grid, shared_.present, {}, nullptr);
+    return detection_.deepest_overlap(shared_.present, placed_walls(0.0));
 }
 
 double Engine::max_penetration_after_move() {
@@ -297,22 +301,23 @@ double Engine::max_penetration_after_move() {
     // a side and touch another image of a plate: all pairs must be tested.
     if (!(moved_ <= reach_) || may_meet_images()) return max_penetration();
     follow_bodies();
-    return detection_.deepest_overlap(bodies_of_points(), walls_, points_);
+    return detection_.deepest_overlap(bodies_of_points(), walls_, contacts_.points);
 }
 
 double Engine::contact_violation() {
     follow_bodies();
-    return nscd::contact_violation(problem_, solution_, bodies_of_points().twist);
+    return nscd::contact_violation(contacts_.problem, contacts_.solution, bodies_of_points().twist);
 }
 
 /// The bodies of the points as they are now.
 void Engine::follow_bodies() {
-    if (!ranks_) return;
+    if (!shared_.ranks) return;
     // The host may have changed the own bodies; copies follow from their owners.
-    std::copy(bodies_.position.begin(), bodies_.position.end(), present_.position.begin());
-    std::copy(bodies_.orientation.begin(), bodies_.orientation.end(), present_.orientation.begin());
-    std::copy(bodies_.twist.begin(), bodies_.twist.end(), present_.twist.begin());
-    ranks_->follow(present_);
+    std::copy(bodies_.position.begin(), bodies_.position.end(), shared_.present.position.begin());
+    std::copy(bodies_.orientation.begin(), bodies_.orientation.end(),
+              shared_.present.orientation.begin());
+    std::copy(bodies_.twist.begin(), bodies_.twist.end(), shared_.present.twist.begin());
+    shared_.ranks->follow(shared_.present);
 }
 
 void Engine::keep(const std::vector<std::uint8_t>& mask) {
@@ -321,12 +326,12 @@ void Engine::keep(const std::vector<std::uint8_t>& mask) {
 }
 
 void Engine::forget_step() {
-    points_.clear();
+    contacts_.points.clear();
     moved_ = std::numeric_limits<double>::infinity();
-    problem_ = {};
-    solution_.clear();
-    impulses_.clear();
-    approach_.clear();
+    contacts_.problem = {};
+    contacts_.solution.clear();
+    contacts_.impulses.clear();
+    contacts_.approach.clear();
 }
 
 std::vector<char> Engine::save() const {
@@ -400,50 +405,54 @@ StepReport Engine::hand_out(SolverResult result, double dt) {
     remember(result.impulses, dt);
     // Before the bodies get their new velocities: the approach is that at the start of the step.
     look_at_films(result.impulses, result.velocities);
-    impulses_ = laws_.felt(result.impulses);
-    solution_ = std::move(result.impulses);
+    contacts_.impulses = laws_.felt(result.impulses);
+    contacts_.solution = std::move(result.impulses);
     // r~, not r: a bond or a cone is judged without the attraction, and without what films carry.
-    laws_.find_states({points_, keys_, bodies_of_points(), placed_walls_}, carried());
-    if (ranks_) {
+    laws_.find_states({contacts_.points, contacts_.keys, bodies_of_points(), placed_walls_},
+                      carried());
+    if (shared_.ranks) {
         const auto own = static_cast<std::ptrdiff_t>(bodies_.size());
         bodies_.twist.assign(result.velocities.begin(), result.velocities.begin() + own);
-        present_.twist = std::move(result.velocities);
+        shared_.present.twist = std::move(result.velocities);
     } else {
         bodies_.twist = std::move(result.velocities);
     }
     sum_impulses();
-    return {static_cast<std::int64_t>(points_.size()),
+    return {static_cast<std::int64_t>(contacts_.points.size()),
             loaded_contacts(),
             result.iterations,
             result.residual,
             result.change,
             result.converged,
-            deepest_};
+            contacts_.deepest};
 }
 
 /// What films carry, and how fast their surfaces approached each other.
 void Engine::look_at_films(const Impulses& found, const std::vector<Twist>& velocities) {
-    approach_.clear();
-    if (problem_.films.empty()) return;
-    pressing_ = carried_by_contacts(problem_, found, velocities);
-    for (const Contact& contact : problem_.contacts)
-        approach_.push_back(contact_velocity(contact, bodies_of_points().twist).n);
+    contacts_.approach.clear();
+    if (contacts_.problem.films.empty()) return;
+    contacts_.pressing = carried_by_contacts(contacts_.problem, found, velocities);
+    for (const Contact& contact : contacts_.problem.contacts)
+        contacts_.approach.push_back(contact_velocity(contact, bodies_of_points().twist).n);
 }
 
 /// Contacts that press, those of films alone not among them.
 std::int64_t Engine::loaded_contacts() const {
-    if (problem_.films.empty()) return static_cast<std::int64_t>(memory_.contacts().size());
-    return std::count_if(pressing_.begin(), pressing_.end(),
+    if (contacts_.problem.films.empty())
+        return static_cast<std::int64_t>(memory_.contacts().size());
+    return std::count_if(contacts_.pressing.begin(), contacts_.pressing.end(),
                          [](const ContactVector& r) { return r.n > 0.0; });
 }
 
 double Engine::film_work() {
     follow_bodies();
     double work = 0.0;
-    for (std::size_t k = 0; k < approach_.size(); ++k) {
-        const double now = contact_velocity(problem_.contacts[k], bodies_of_points().twist).n;
+    for (std::size_t k = 0; k < contacts_.approach.size(); ++k) {
+        const double now =
+            contact_velocity(contacts_.problem.contacts[k], bodies_of_points().twist).n;
         // Impulse of the film times the mean velocity of the step, (u_n^- + u_n^+)/2 [J].
-        work += (solution_[k].n - pressing_[k].n) * 0.5 * (approach_[k] + now);
+        work += (contacts_.solution[k].n - contacts_.pressing[k].n) * 0.5 *
+                (contacts_.approach[k] + now);
     }
     return work;
 }
@@ -458,11 +467,11 @@ void Engine::sum_impulses() {
         // J = sum p [N s],   K = sum (arm x p + m) [N m s]
         sum.spin = sum.spin + cross(arm, p) + moment;
     };
-    each_contact(problem_, sums, [&](std::size_t k) {
-        const Vec3 moment = world_moment(impulses_, k);
-        if (impulses_[k] == ContactVector{} && moment == Vec3{}) return;
-        const Contact& contact = problem_.contacts[k];
-        const Vec3 p = world_impulse(contact, impulses_[k]);
+    each_contact(contacts_.problem, sums, [&](std::size_t k) {
+        const Vec3 moment = world_moment(contacts_.impulses, k);
+        if (contacts_.impulses[k] == ContactVector{} && moment == Vec3{}) return;
+        const Contact& contact = contacts_.problem.contacts[k];
+        const Vec3 p = world_impulse(contact, contacts_.impulses[k]);
         add(contact.b, contact.arm_b, p, moment);
         if (contact.a >= 0) add(contact.a, contact.arm_a, -1.0 * p, -moment);
     });

@@ -81,7 +81,7 @@ class Engine {
     void share_with(RankExchange& ranks);
 
     /// An array of the host with one entry per body, which goes with the bodies to other ranks.
-    void carry(std::vector<Twist>& array) { carried_.push_back(&array); }
+    void carry(std::vector<Twist>& array) { shared_.carried.push_back(&array); }
 
     Bodies& bodies() { return bodies_; }
     const Bodies& bodies() const { return bodies_; }
@@ -93,7 +93,7 @@ class Engine {
     const std::vector<Wall>& walls_of_points() const { return placed_walls_; }
     /// The bodies of the last step's contact points: bodies(), and behind them copies of those of
     /// other ranks.
-    const Bodies& bodies_of_points() const { return ranks_ ? present_ : bodies_; }
+    const Bodies& bodies_of_points() const { return shared_.ranks ? shared_.present : bodies_; }
     const EngineSettings& settings() const { return settings_; }
 
     /// Replaces the surfaces, for a host that knows its materials late; laws and contact memory are
@@ -143,19 +143,21 @@ class Engine {
 
     /// Contact points of the last step, and the impulses on the bodies there. With an attractive
     /// law a normal impulse may be negative.
-    const std::vector<ContactPoint>& points() const { return points_; }
-    const Impulses& impulses() const { return impulses_; }
+    const std::vector<ContactPoint>& points() const { return contacts_.points; }
+    const Impulses& impulses() const { return contacts_.impulses; }
 
     /// solution() without what films of liquid carry of it.
-    const Impulses& carried() const { return problem_.films.empty() ? solution_ : pressing_; }
+    const Impulses& carried() const {
+        return contacts_.problem.films.empty() ? contacts_.solution : contacts_.pressing;
+    }
 
     /// The problem of the last step and its solution r~ of law.hpp: the impulses without the
     /// attraction of a law, which is included in the problem's free velocities.
-    const ContactProblem& problem() const { return problem_; }
-    const Impulses& solution() const { return solution_; }
+    const ContactProblem& problem() const { return contacts_.problem; }
+    const Impulses& solution() const { return contacts_.solution; }
 
     /// The initial guess of the last solve.
-    const Impulses& guess() const { return guess_; }
+    const Impulses& guess() const { return contacts_.guess; }
 
     /// Removes bodies whose entry is zero, and with them the last step's contact points.
     void keep(const std::vector<std::uint8_t>& mask);
@@ -175,6 +177,25 @@ class Engine {
     void restore_memory(const std::vector<char>& state);
 
  private:
+    /// What several ranks share.
+    struct Shared {
+        std::unique_ptr<RankDomain> ranks;  ///< none: one rank has everything
+        std::unique_ptr<ParityGrid> grid;   ///< of the last step
+        Bodies present;                     ///< the own bodies, and copies of those of other ranks
+        std::vector<std::vector<Twist>*> carried;
+    };
+    /// Of the last step.
+    struct StepContacts {
+        std::vector<ContactPoint> points;
+        double deepest = 0.0;          ///< overlap of the points [m]
+        std::vector<ContactKey> keys;  ///< of the points
+        ContactProblem problem;
+        Impulses guess, solution, impulses;
+        // With films only, as long as the problem.
+        Impulses pressing;
+        std::vector<double> approach;  ///< n.(v_b - v_a) at the start of the step [m/s]
+    };
+
     std::vector<Wall> placed_walls(double reach) const;
     bool may_meet_images() const;
     void look_ahead(const std::vector<Twist>& free, double dt);
@@ -200,7 +221,6 @@ class Engine {
     SavedMemory saved_memory() const;
     bool in_space() const { return settings_.dimension == 3; }
     void take_memory(SavedMemory memory);
-    Bodies& present() { return ranks_ ? present_ : bodies_; }
 
     EngineSettings settings_;
     Detection detection_;
@@ -209,24 +229,12 @@ class Engine {
     ContactLaws laws_;
     std::unique_ptr<const ContactSolver> solver_;
     Bodies bodies_;
-    std::unique_ptr<RankDomain> ranks_;  ///< none: one rank has everything
-    std::unique_ptr<ParityGrid> grid_;   ///< of the last step on several ranks
-    Bodies present_;                     ///< bodies_ and copies of those of other ranks
-    std::vector<std::vector<Twist>*> carried_;
+    Shared shared_;
     ContactMemory memory_;
     ContactMemory turning_memory_;  // moments of space; empty without resistance to rolling
     double reach_ = 0.0;            ///< largest gap the last step detected [m]
     double moved_ = 0.0;            ///< upper bound of the decrease of any gap since [m]
-    std::vector<ContactPoint> points_;
-    double deepest_ = 0.0;          ///< overlap of the points [m]
-    std::vector<ContactKey> keys_;  ///< of the points
-    ContactProblem problem_;
-    Impulses guess_;
-    Impulses solution_;
-    Impulses impulses_;
-    // With films only, as long as the problem.
-    Impulses pressing_;
-    std::vector<double> approach_;  ///< n.(v_b - v_a) at the start of the step [m/s]
+    StepContacts contacts_;
 };
 
 }  // namespace turbidite::nscd

@@ -292,14 +292,14 @@ std::vector<std::vector<int>> RankDomain::users(const Bodies& bodies,
     for (const ContactPoint& point : found.points)
         for (const std::int32_t body : {point.a, point.b})
             if (body >= 0) used[static_cast<std::size_t>(body)] = 1;
-    std::vector<std::vector<GrainId>> told(static_cast<std::size_t>(ranks_.size()));
+    std::vector<std::vector<GrainId>> sent_ids(static_cast<std::size_t>(ranks_.size()));
     for (std::size_t i = 0; i < bodies.size(); ++i)
         if (used[i] != 0)
             for (const int rank : holders_[i])
-                told[static_cast<std::size_t>(rank)].push_back(bodies.id[i]);
+                sent_ids[static_cast<std::size_t>(rank)].push_back(bodies.id[i]);
     std::vector<std::vector<int>> users(bodies.size());
     int rank = 0;
-    for (const std::vector<GrainId>& ids : swapped(ranks_, told)) {
+    for (const std::vector<GrainId>& ids : swapped(ranks_, sent_ids)) {
         for (const GrainId id : ids)
             if (const auto at = shared_.find(id); at != shared_.end())
                 users[static_cast<std::size_t>(at->second)].push_back(rank);
@@ -314,8 +314,8 @@ std::vector<PhaseWays> RankDomain::ways(const Bodies& bodies, const OrderedPoint
     const auto ranks = static_cast<std::size_t>(ranks_.size());
     const std::vector<std::vector<int>> users = this->users(bodies, found);
     std::vector<PhaseWays> ways(contact_ends.size());
-    std::vector<std::vector<GrainId>> told(ranks);
-    std::vector<std::size_t> told_in(bodies.size(), contact_ends.size());
+    std::vector<std::vector<GrainId>> sent_ids(ranks);
+    std::vector<std::size_t> sent_in(bodies.size(), contact_ends.size());
     std::size_t k = 0;
     for (std::size_t phase = 0; phase < ways.size(); ++phase) {
         ways[phase].sent.resize(ranks), ways[phase].received.resize(ranks);
@@ -324,8 +324,8 @@ std::vector<PhaseWays> RankDomain::ways(const Bodies& bodies, const OrderedPoint
                 if (body < 0) continue;
                 const auto i = static_cast<std::size_t>(body);
                 // Once in a phase, after all of its contacts of this phase.
-                if (users[i].empty() || told_in[i] == phase) continue;
-                told_in[i] = phase;
+                if (users[i].empty() || sent_in[i] == phase) continue;
+                sent_in[i] = phase;
                 for (const int rank : users[i])
                     ways[phase].sent[static_cast<std::size_t>(rank)].push_back(body);
             }
@@ -333,13 +333,13 @@ std::vector<PhaseWays> RankDomain::ways(const Bodies& bodies, const OrderedPoint
             const std::vector<std::int32_t>& sent = ways[phase].sent[rank];
             // By phase the number of bodies and their ids, in the order in which their values will
             // travel. Indices mean nothing to another rank.
-            told[rank].push_back(static_cast<GrainId>(sent.size()));
+            sent_ids[rank].push_back(static_cast<GrainId>(sent.size()));
             for (const std::int32_t i : sent)
-                told[rank].push_back(bodies.id[static_cast<std::size_t>(i)]);
+                sent_ids[rank].push_back(bodies.id[static_cast<std::size_t>(i)]);
         }
     }
     std::size_t rank = 0;
-    for (const std::vector<GrainId>& list : swapped(ranks_, told)) {
+    for (const std::vector<GrainId>& list : swapped(ranks_, sent_ids)) {
         auto at = list.begin();
         for (PhaseWays& phase : ways)
             for (GrainId left = *at++; left > 0; --left)

@@ -45,7 +45,7 @@ std::string name_of(const char* test) {
 
 TEST(Doorbell, WakesASleeper) {
     Doorbell bell;
-    ASSERT_TRUE(bell.hang(name_of("sleeper")));
+    ASSERT_TRUE(bell.install(name_of("sleeper")));
     std::thread visitor([] {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         BellButton(name_of("sleeper")).ring();
@@ -56,7 +56,7 @@ TEST(Doorbell, WakesASleeper) {
 
 TEST(Doorbell, KeepsRingsForTheNextSleepAndOnlyForThatOne) {
     Doorbell bell;
-    ASSERT_TRUE(bell.hang(name_of("kept")));
+    ASSERT_TRUE(bell.install(name_of("kept")));
     BellButton visitor(name_of("kept"));
     for (int n = 0; n < 1000; ++n) visitor.ring();  // more than a socket queues
     EXPECT_TRUE(visitor.heard());
@@ -73,9 +73,9 @@ TEST(Doorbell, OfNobodyIsRungInVain) {
 
 TEST(Doorbell, WithATakenOrAnOverlongNameStaysSilent) {
     Doorbell first, second, third;
-    EXPECT_TRUE(first.hang(name_of("taken")));
-    EXPECT_FALSE(second.hang(name_of("taken")));
-    EXPECT_FALSE(third.hang(std::string(101, 'x')));
+    EXPECT_TRUE(first.install(name_of("taken")));
+    EXPECT_FALSE(second.install(name_of("taken")));
+    EXPECT_FALSE(third.install(std::string(101, 'x')));
     BellButton(name_of("taken")).ring();
     EXPECT_FALSE(second.sleep(1e-3));
     EXPECT_FALSE(third.sleep(1e-3));
@@ -85,7 +85,7 @@ TEST(Doorbell, WithATakenOrAnOverlongNameStaysSilent) {
 // Whoever rings faster than it is heard would otherwise hold the sleeper for ever.
 TEST(Doorbell, RingingWithoutEndEndsASleep) {
     Doorbell bell;
-    ASSERT_TRUE(bell.hang(name_of("endless")));
+    ASSERT_TRUE(bell.install(name_of("endless")));
     BellButton visitor(name_of("endless"));
     visitor.ring();
     int heard = 0;
@@ -104,7 +104,7 @@ TEST(Doorbell, RingsOfOtherUsersCountForNothing) {
     if (geteuid() != 0) GTEST_SKIP() << "only root can ring as somebody else";
     constexpr uid_t nobody = 65534;
     Doorbell bell;
-    ASSERT_TRUE(bell.hang(name_of("stranger")));
+    ASSERT_TRUE(bell.install(name_of("stranger")));
     const auto ring_as = [](uid_t user) {
         const pid_t visitor = fork();
         if (visitor == 0) {
@@ -124,8 +124,8 @@ TEST(Doorbell, RingsOfOtherUsersCountForNothing) {
 }
 
 TEST(Doorbell, IsFreeAgainAfterItsEnd) {
-    EXPECT_TRUE(Doorbell().hang(name_of("again")));
-    EXPECT_TRUE(Doorbell().hang(name_of("again")));
+    EXPECT_TRUE(Doorbell().install(name_of("again")));
+    EXPECT_TRUE(Doorbell().install(name_of("again")));
 }
 
 }  // namespace

@@ -141,9 +141,9 @@ TEST_F(Received, AFaultOfACheckpointIsMended) {
 class EndsEarly final : public Scheme {
  public:
     explicit EndsEarly(std::unique_ptr<Scheme> of) : of_(std::move(of)) {}
-    WindowResult play(const Window& window, const Motion& before, Cast cast) override {
+    WindowResult play(const Window& window, const Motion& before, SchemeContext context) override {
         if (window.index == 2) throw Failure(ExitCode::done, "enough");
-        return of_->play(window, before, cast);
+        return of_->play(window, before, context);
     }
 
  private:

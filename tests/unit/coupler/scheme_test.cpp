@@ -22,25 +22,25 @@ namespace {
 
 class Twice final : public Scheme {
  public:
-    WindowResult play(const Window& window, const Motion& before, Cast cast) override {
-        cast.fluid->send_all(Kind::window, window);
-        cast.grains.send_all(Kind::window, window);
+    WindowResult play(const Window& window, const Motion& before, SchemeContext context) override {
+        context.fluid->send_all(Kind::window, window);
+        context.grains.send_all(Kind::window, window);
         WindowResult result;
-        result.motion = receive_motion(window, before, cast);
-        cast.grains.send_each(Kind::contact_input,
-                              cast.plan.by_owner(responses_to(window, result.motion, cast)));
-        result.motion = receive_motion(window, before, cast);
-        responses_to(window, result.motion, cast);
-        send_accept(cast);
-        finish_window(window, before, cast, result);
+        result.motion = receive_motion(window, before, context);
+        context.grains.send_each(Kind::contact_input, context.plan.by_owner(responses_to(
+                                                          window, result.motion, context)));
+        result.motion = receive_motion(window, before, context);
+        responses_to(window, result.motion, context);
+        send_accept(context);
+        finish_window(window, before, context, result);
         return result;
     }
 
  private:
     static std::vector<FreeResponse> responses_to(const Window& window, const Motion& motion,
-                                                  Cast& cast) {
-        cast.fluid->send_each(Kind::constraint, cast.plan.by_place(motion));
-        return receive_responses(window, cast);
+                                                  SchemeContext& context) {
+        context.fluid->send_each(Kind::constraint, context.plan.by_place(motion));
+        return receive_responses(window, context);
     }
 };
 
