@@ -11,9 +11,11 @@
 namespace turbidite {
 
 ParticipantLink::ParticipantLink(Role role, Channel& channel) : role_(role), channel_(channel) {
-    for (int rank = 0; rank < channel.peers(); ++rank)
+    for (int rank = 0; rank < channel.peers(); ++rank) {
         ranks_.push_back(
             {CallOrder(role, fmt::format("{} rank {}", role_name(role), rank)), {}, {}});
+        changed_.push_back(rank);
+    }
 }
 
 std::string ParticipantLink::rank_name(int rank) const {
@@ -54,7 +56,12 @@ Envelope ParticipantLink::next_sent(int rank, Kind kind) {
 
 void ParticipantLink::post(int rank, Bytes frame) {
     channel_.send(rank, std::move(frame));
+    note_change(rank);
+}
+
+void ParticipantLink::note_change(int rank) {
     ranks_[rank].since = Clock::now();
+    if (changed_.empty() || changed_.back() != rank) changed_.push_back(rank);
 }
 
 void ParticipantLink::send(int rank, Kind kind) {
@@ -87,7 +94,7 @@ void ParticipantLink::take_in(int rank, FramedMessage message) {
     Rank& from = ranks_.at(rank);
     // Against the call order before the payload is looked at.
     from.order.received(message.envelope, to_coupler);
-    from.since = Clock::now();
+    note_change(rank);
     if (message.envelope.kind == Kind::failure) raise(rank, decode<Verdict>(message.payload()));
     from.inbox.push_back(std::move(message));
 }

@@ -6,6 +6,7 @@
 
 #include <deque>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupler/protocol/call_order.hpp"
@@ -85,6 +86,9 @@ class ParticipantLink {
     /// Takes messages of no content.
     void discard(Kind kind) { take_messages(kind); }
 
+    /// The ranks whose state has changed since the last call, by a message of theirs or to them.
+    std::vector<int> take_changed() { return std::exchange(changed_, {}); }
+
     /// "grains rank 0 (host h, pid 12) works towards "motion", window 4, since 3 s".
     std::string state_of(int rank) const;
 
@@ -109,6 +113,7 @@ class ParticipantLink {
     void post(int rank, Bytes frame);
     FramedMessage unpack(Channel::Frame frame) const;
     void take_in(int rank, FramedMessage message);
+    void note_change(int rank);
     std::vector<FramedMessage> take_messages(Kind kind);
     [[noreturn]] void raise(int rank, const Verdict& verdict) const;
     [[noreturn]] void refuse_payload(int rank, Kind kind, const std::string& fault) const;
@@ -116,6 +121,7 @@ class ParticipantLink {
     Role role_;
     Channel& channel_;
     std::vector<Rank> ranks_;
+    std::vector<int> changed_;
 };
 
 }  // namespace turbidite

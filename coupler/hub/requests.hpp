@@ -7,7 +7,8 @@
 //     WRITE       the next window is written as if output were due
 //     CHECKPOINT  a checkpoint after the next window
 //
-// They are looked for once per window, and removed when they are obeyed. A batch system's SIGUSR1
+// They are looked for once per window, and removed when they are obeyed. A STOP file with a text
+// should get its name when it is whole, by a rename. A batch system's SIGUSR1
 // stops a run like the first file.
 #pragma once
 

@@ -9,30 +9,22 @@
 #include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
-namespace {
-
-constexpr std::size_t table_line = 512;  // bytes, longer than the line of any rank
-
-}  // namespace
-
 Watch::Watch(std::vector<ParticipantLink*> links, double soft, double hard, Print print)
     : links_(std::move(links)), soft_(soft), hard_(hard), print_(std::move(print)) {}
 
 void Watch::leave_table(const std::filesystem::path& file) {
-    std::size_t ranks = 0;
-    for (const ParticipantLink* link : links_) ranks += static_cast<std::size_t>(link->ranks());
-    table_ = std::make_unique<SurvivingText>(file, ranks * table_line);
-}
-
-// Of all participants, not only the one that is waited for: its partner's failure ends the wait.
-bool Watch::pump() {
-    bool any = false;
-    for (ParticipantLink* link : links_) any |= link->pump();
-    return any;
+    table_ = std::make_unique<KeptLines>(file);
 }
 
 void Watch::keep_table() {
-    if (table_) table_->set(wait_for_table());
+    if (!table_) return;
+    std::size_t first = 0;
+    for (ParticipantLink* link : links_) {
+        // Only what has changed: a line costs a call of the system, and there may be many ranks.
+        for (const int rank : link->take_changed())
+            table_->set(first + static_cast<std::size_t>(rank), "  " + link->state_of(rank));
+        first += static_cast<std::size_t>(link->ranks());
+    }
 }
 
 void Watch::wait_for(ParticipantLink& link, Kind kind) {
@@ -43,11 +35,13 @@ void Watch::wait_for(ParticipantLink& link, Kind kind) {
     Patience patience;
     // Frames are looked for before every look at the clock, so that what has come is never called
     // late.
-    for (bool first = true;; first = false, patience.wait(any_in_transit())) {
+    for (;; patience.wait(any_in_transit())) {
         if (signal_ && *signal_) throw EndedFromOutside{};
-        const bool any = pump();
+        // Of all participants, not only the one that is waited for: its partner's failure ends the
+        // wait.
+        for (ParticipantLink* other : links_) other->pump();
+        keep_table();
         if (link.ready(kind)) break;
-        if (first || any) keep_table();
         if (patience.seconds() > hard_)
             throw Failure(ExitCode::stalled,
                           fmt::format("stalled: no \"{}\" from {} for {:.0f} s\n{}",

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "coupler/hub/participant_link.hpp"
-#include "coupler/protocol/files/surviving_text.hpp"
+#include "coupler/protocol/files/kept_lines.hpp"
 #include "coupler/protocol/timeline.hpp"
 
 namespace turbidite {
@@ -51,7 +51,6 @@ class Watch {
 
  private:
     bool any_in_transit() const;
-    bool pump();
     void keep_table();
 
     std::vector<ParticipantLink*> links_;
@@ -59,7 +58,7 @@ class Watch {
     Print print_;
     const volatile std::sig_atomic_t* signal_ = nullptr;
     Timeline* timeline_ = nullptr;
-    std::unique_ptr<SurvivingText> table_;
+    std::unique_ptr<KeptLines> table_;
     double waited_ = 0.0;
 };
 

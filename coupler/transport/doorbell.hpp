@@ -40,8 +40,8 @@ class BellButton {
  public:
     explicit BellButton(std::string name) : name_(std::move(name)) {}
 
-    /// Returns at once. After a ring that nobody could hear, does nothing any more: bells hang
-    /// before the first ring.
+    /// Returns at once. After a ring that nobody could hear, does nothing any more: bells are
+    /// installed before the first ring.
     void ring();
 
     bool heard() const { return heard_; }

@@ -28,7 +28,7 @@ constexpr int intercomm_tag = 1010;  // + role
 
 /// Before the intercommunicator, whose other end may ring at once. Within a job nobody else has the
 /// name of this process; without mpirun there is no job, and names are not unique.
-void hang_doorbell() {
+void install_doorbell() {
     int rank = 0;
     PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
     const std::string name = bell_name(rank);
@@ -72,7 +72,7 @@ MPI_Comm join_coupler(MPI_Comm local, Role role) {
     int rank = 0, ranks = 0;
     PMPI_Comm_rank(local, &rank);
     PMPI_Comm_size(local, &ranks);
-    hang_doorbell();
+    install_doorbell();
     note_start(StartStep::announcement);
     // The leader speaks for its program. It is not known who joins first: each announces itself.
     if (rank == 0) {
@@ -90,7 +90,7 @@ MPI_Comm join_coupler(MPI_Comm local, Role role) {
 JoinedParticipant accept_participant(MPI_Comm local, double limit) {
     MPI_Status status;
     int arrived = 0;
-    hang_doorbell();
+    install_doorbell();
     // Probed and not received: a receive could not be given up, and would take the core from
     // others.
     for (Patience patience; !arrived; patience.wait()) {

@@ -51,7 +51,7 @@ JoinedParticipant accept_participant(MPI_Comm local, double limit);
 /// The world ranks of the processes at the other end.
 std::vector<int> world_ranks_of_peers(MPI_Comm intercomm);
 
-/// The doorbell of a process of this job, which hangs as soon as it has an intercommunicator.
+/// The doorbell of a process of this job, which is there as soon as it has an intercommunicator.
 std::string bell_name(int world_rank);
 
 /// Ends a job that hangs during its start: unless `disarm`ed within `limit` seconds the process

@@ -8,12 +8,11 @@
 #include <deque>
 #include <fstream>
 #include <regex>
-#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "coupler/protocol/files/run_files.hpp"
-#include "coupler/protocol/files/surviving_text.hpp"
+#include "coupler/protocol/files/kept_lines.hpp"
 #include "coupler/protocol/received.hpp"
 #include "launcher/job/folder/run_json.hpp"
 
@@ -129,11 +128,10 @@ std::filesystem::path log_of(const RunFolder& folder, const std::string& rank) {
 /// What the coupler last saw of a rank: "was due to send "motion", window 5"; empty if unknown. Not
 /// from the coupler's log: mpirun ends the coupler with the others, often by SIGKILL at once.
 std::string phase_of(const RunFolder& folder, const std::string& rank) {
-    std::istringstream table(read_surviving_text(wait_table_file(folder.root)));
     const std::regex state("^  " + rank + R"( \(host .*?, pid \d+\) (.*), for \d+ s$)");
     std::string phase;
     std::smatch match;
-    for (std::string line; std::getline(table, line);)
+    for (const std::string& line : kept_lines(wait_table_file(folder.root)))
         if (std::regex_match(line, match, state)) phase = match[1];
     return std::regex_replace(std::regex_replace(phase, std::regex("^is "), "was "),
                               std::regex("^waits "), "waited ");

@@ -10,7 +10,7 @@ from pathlib import Path
 MOST = 15
 FOLDERS = ('coupler', 'fluid_adapter', 'granular_adapter', 'launcher')
 HEAD = re.compile(r'\bclass (\w+)[^;{}()]*\{')
-MEMBER = re.compile(r'\b\w*[a-z0-9]_(?=\s*(?:[,;={]|$))')
+MEMBER = re.compile(r'\b\w*[a-z0-9]_(?=\s*(?:[,;={[]|$))')
 
 
 def own_text(source, begin):
@@ -52,10 +52,10 @@ class Classes(unittest.TestCase):
     def test_members_are_counted(self):
         found = members('class A final : public B {\n public:\n    int f() const { return x_; }\n    void g(int a_);\n'
                         ' private:\n    struct In { int inner_; };\n    int x_ = 0, y_ = x_;  // not z_\n'
-                        '    std::vector<int> list_;\n    C c_{1};\n};\nclass D;\n')
-        self.assertEqual(found, {'A': ['c_', 'list_', 'x_', 'y_']})
+                        '    std::vector<int> list_;\n    C c_{1};\n    double d_[3];\n};\nclass D;\n')
+        self.assertEqual(found, {'A': ['c_', 'd_', 'list_', 'x_', 'y_']})
 
-    def test_all_rooms_are_looked_at(self):
+    def test_all_folders_are_looked_at(self):
         count = sum(len(members(file.read_text())) for folder in FOLDERS for file in (ROOT / folder).rglob('*.[hc]pp'))
         self.assertGreater(count, 150)
 

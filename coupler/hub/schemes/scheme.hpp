@@ -19,7 +19,7 @@
 
 namespace turbidite {
 
-/// The participants of a run.
+/// What a scheme works with: the participants of a run, and the rules for what they send.
 struct SchemeContext {
     ParticipantLink& grains;
     ParticipantLink* fluid;  ///< null in dry runs

@@ -31,7 +31,7 @@ bool write_first_end(const std::filesystem::path& run, const FirstEnd& end);
 /// Empty if nobody has written one. Mended (received.hpp), since any program may have written it.
 std::optional<FirstEnd> read_first_end(const std::filesystem::path& run);
 
-/// RUN/logs/waits: the coupler's last wait-for table (SurvivingText), for the launcher, which tells
+/// RUN/logs/waits: the coupler's last wait-for table (KeptLines), for the launcher, which tells
 /// what the program that ended first was about to do.
 std::filesystem::path wait_table_file(const std::filesystem::path& run);
 

@@ -60,9 +60,10 @@ void CellOrder::add(const ContactPoint& point) {
 
 void CellOrder::take_phase(std::vector<Place>& places, std::vector<std::int32_t>& order) {
     std::sort(places.begin(), places.end(), [](const Place& p, const Place& q) {
-        // Ids before places in storage: no two points are equal, so the sort has one result.
-        return std::tie(p.cell, p.layer, p.wall, p.first, p.second, p.feature) <
-               std::tie(q.cell, q.layer, q.wall, q.first, q.second, q.feature);
+        // Ids before places in storage. Only points of one body at two images of a wall may be
+        // equal but for their numbers, which follow the order of the walls on every rank.
+        return std::tie(p.cell, p.layer, p.wall, p.first, p.second, p.feature, p.point) <
+               std::tie(q.cell, q.layer, q.wall, q.first, q.second, q.feature, q.point);
     });
     for (std::size_t i = 0; i < places.size(); ++i) {
         order.push_back(places[i].point);

@@ -77,12 +77,27 @@ std::vector<ContactPoint> Detection::unordered(const Look& look) const {
     return points;
 }
 
+/// Points of polygons cost more to find again than to move.
+template <class Order, class Wanted>
+std::vector<ContactPoint> Detection::moved_in_order(const Look& look, Order& order,
+                                                    const Wanted& wanted) const {
+    std::vector<ContactPoint> found, points;
+    each_near(look, [&](const Near& near) {
+        if (wanted(near)) add(look, near, found);
+    });
+    for (const ContactPoint& point : found) order.add(point);
+    points.reserve(found.size());
+    for (const std::int32_t i : order.take()) points.push_back(found[static_cast<std::size_t>(i)]);
+    return points;
+}
+
 /// Round bodies have one point (or a few, at a wall into which they just fit), and it is cheaper to
 /// find it twice, first for its place in the order, than to write all points down and move them
 /// into their order.
 template <class Order, class Wanted>
 std::vector<ContactPoint> Detection::in_order(const Look& look, Order& order,
                                               const Wanted& wanted) const {
+    if (has_corners()) return moved_in_order(look, order, wanted);
     struct Found {
         Near near;
         std::size_t point, of;  // of the points of the pair

@@ -76,6 +76,9 @@ class Detection {
     std::vector<ContactPoint> unordered(const Look& look) const;
     template <class Order, class Wanted>
     std::vector<ContactPoint> in_order(const Look& look, Order& order, const Wanted& wanted) const;
+    template <class Order, class Wanted>
+    std::vector<ContactPoint> moved_in_order(const Look& look, Order& order,
+                                             const Wanted& wanted) const;
 
     NarrowPhase narrow_;
     PeriodicBox box_;

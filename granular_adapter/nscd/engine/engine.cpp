@@ -123,8 +123,9 @@ double Engine::bound(const std::vector<Twist>& twists, double dt) const {
     const double corners = detection_.has_corners() ? corner_speed(bodies_, twists) : 0.0;
     if (!shared_.ranks) return approach_bound(bodies_, walls_, twists, corners, dt);
     RankExchange& ranks = shared_.ranks->ranks();
-    return largest(ranks, approach_bound(bodies_, walls_, shared_.ranks->extremes(twists),
-                                         largest(ranks, corners), dt));
+    const std::vector<Twist> extremes = shared_.ranks->extremes(twists);
+    const double fastest_corner = largest(ranks, corners);
+    return largest(ranks, approach_bound(bodies_, walls_, extremes, fastest_corner, dt));
 }
 
 /// Sets how far to look for contacts that may close within the step.

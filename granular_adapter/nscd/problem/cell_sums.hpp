@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // Sums over the contacts of a problem: over those of a cell, then over the cells in their order,
-// those of all ranks included; in the plane over all contacts in turn.
+// those of all ranks included; on one rank in the plane over all contacts in turn.
 #pragma once
 
 #include <algorithm>

@@ -17,8 +17,6 @@ namespace {
 constexpr double uneven = 1.15;
 constexpr std::int64_t steps_between_cuts = 20;
 
-constexpr std::size_t parities = 8;
-
 /// The body whose rank keeps what is known of a contact; at a wall `first` is the wall's key.
 GrainId keeper(const ContactKey& key) {
     return key.wall != 0 ? key.second : key.first;
@@ -349,15 +347,31 @@ std::vector<PhaseWays> RankDomain::ways(const Bodies& bodies, const OrderedPoint
     return ways;
 }
 
+/// Of all ranks, from the numbers of this one up to the end of each phase.
+std::vector<double> RankDomain::contacts_of_phases(const std::vector<std::int32_t>& ends) const {
+    std::vector<double> own, all(ends.size());
+    for (std::size_t phase = 0; phase < ends.size(); ++phase)
+        own.push_back(static_cast<double>(ends[phase] - (phase == 0 ? 0 : ends[phase - 1])));
+    const std::vector<double> of_ranks = gathered(ranks_, own);
+    for (std::size_t i = 0; i < of_ranks.size(); ++i) all[i % ends.size()] += of_ranks[i];
+    return all;
+}
+
 const RankPlan& RankDomain::plan(const ParityGrid& grid, const Bodies& bodies,
                                  const OrderedPoints& found) {
-    std::vector<std::size_t> cell_ends = found.phase_ends;
-    // The ninth phase has the contacts of large bodies: without such bodies one exchange less per
-    // sweep.
-    if (large_.empty()) cell_ends.resize(parities);
+    std::vector<std::int32_t> all_ends;
+    for (const std::size_t cells : found.phase_ends)
+        all_ends.push_back(cells == 0 ? 0 : found.cells.end[cells - 1]);
+    const std::vector<double> in_phase = contacts_of_phases(all_ends);
+    // A phase without contacts on any rank would only cost an exchange per sweep: that of large
+    // bodies where there are none, and in the plane those of odd parity along z.
+    std::vector<std::size_t> cell_ends;
     std::vector<std::int32_t> contact_ends;
-    for (const std::size_t cells : cell_ends)
-        contact_ends.push_back(cells == 0 ? 0 : found.cells.end[cells - 1]);
+    for (std::size_t phase = 0; phase < all_ends.size(); ++phase) {
+        if (in_phase[phase] == 0.0) continue;
+        cell_ends.push_back(found.phase_ends[phase]);
+        contact_ends.push_back(all_ends[phase]);
+    }
     // The work of a cell is its number of contacts in this step.
     loads_.clear();
     for (std::size_t cell = 0; cell < found.cells.size(); ++cell) {
@@ -368,9 +382,7 @@ const RankPlan& RankDomain::plan(const ParityGrid& grid, const Bodies& bodies,
         loads_.push_back(
             {grid.centre(grid.cell(bodies.position[body])), static_cast<double>(end - first)});
     }
-    const std::vector<double> counts =
-        gathered(ranks_, std::vector<double>{static_cast<double>(found.points.size())});
-    const double contacts = std::accumulate(counts.begin(), counts.end(), 0.0);
+    const double contacts = std::accumulate(in_phase.begin(), in_phase.end(), 0.0);
     plan_.reset();
     plan_ = std::make_unique<RankPlan>(ranks_, ways(bodies, found, contact_ends), contact_ends,
                                        std::move(cell_ends), static_cast<std::size_t>(contacts));

@@ -69,6 +69,7 @@ class RankDomain {
     bool is_uneven(const std::vector<double>& work) const;
     int home(const ParityGrid& grid, const Vec3& position, double radius) const;
     void number_shared(const ParityGrid& grid, const Bodies& bodies);
+    std::vector<double> contacts_of_phases(const std::vector<std::int32_t>& ends) const;
     std::vector<std::vector<int>> users(const Bodies& bodies, const OrderedPoints& found) const;
     std::vector<PhaseWays> ways(const Bodies& bodies, const OrderedPoints& found,
                                 const std::vector<std::int32_t>& contact_ends) const;

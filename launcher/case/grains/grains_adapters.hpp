@@ -55,7 +55,7 @@ struct GrainsAdapter {
 /// What every host of the contact engine can do.
 GrainsAdapter contact_engine(const char* name, const char* help, GrainsHost host, const char* file);
 
-/// The same with any number of ranks in space.
+/// The same with any number of ranks.
 GrainsAdapter on_ranks(GrainsAdapter adapter);
 
 /// A program of the user's own. The handshake says which shapes and schemes it supports; the rest

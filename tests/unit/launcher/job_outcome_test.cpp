@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include "coupler/protocol/files/kept_lines.hpp"
 #include "coupler/protocol/files/run_files.hpp"
-#include "coupler/protocol/files/surviving_text.hpp"
 #include "launcher/job/folder/run_json.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
@@ -75,11 +75,11 @@ TEST_F(Outcome, KilledOnRequest) {
 // logs/first_end, and the wait-for table that the coupler left behind.
 TEST_F(Outcome, NamesTheProgramThatEndedFirstWithPhaseAndLog) {
     scratch.write("logs/coupler.log", "window 5\n");
-    SurvivingText(wait_table_file(scratch.path()), 1000)
-        .set(
-            "  fluid rank 0 (host vm, pid 12) is due to send \"kicks\", window 5, for 0 s\n"
-            "  grains rank 0 (host vm, pid 13) waits for the coupler's \"kick\", window 5, "
-            "for 0 s");
+    KeptLines table(wait_table_file(scratch.path()));
+    table.set(0, "  fluid rank 0 (host vm, pid 12) is due to send \"kicks\", window 5, for 0 s");
+    table.set(1,
+              "  grains rank 0 (host vm, pid 13) waits for the coupler's \"kick\", window 5, for 0 "
+              "s");
     scratch.write("history.csv", "step\n0\n");
     scratch.write("logs/fluid.log", "cannot open shared library\n");
     ASSERT_TRUE(write_first_end(scratch.path(),

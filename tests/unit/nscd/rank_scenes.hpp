@@ -40,7 +40,6 @@ struct Played {
     std::map<GrainId, Grain> grains;
     std::map<ContactKey, std::pair<ContactVector, Vec3>> impulses;
     std::map<ContactKey, ContactVector> memory;
-    std::map<ContactKey, ContactState> states;
     std::vector<std::int64_t> iterations;
     std::vector<double> residuals, quads, overlaps, violations;
     std::int64_t contacts = 0;
