@@ -217,7 +217,7 @@ KeyGroup adapter_keys() {
               .need = Need::conditional,
               .help = "program of your own and its arguments; the run folder is appended. Files "
                       "are relative to the case file",
-              .when = "with grains.adapter: external",
+              .when = "grains.adapter: external",
               .required = has_command,
               .idle = idle_command}},
         .rules = {{"coupling.scheme", {"grains.adapter", "fluid.enabled"}, scheme_is_known},

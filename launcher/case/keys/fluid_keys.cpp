@@ -300,7 +300,7 @@ std::vector<KeySpec> mesh_keys() {
          .type = KeyType::integer,
          .fallback = "16",
          .range = {.lower = 2.0, .upper = 1024.0},
-         .help = "mesh cells per grain diameter",
+         .help = "mesh cells per grain diameter; spheres need 6 or more",
          .idle = without_fluid},
         {.name = "fluid.stretch_ratio",
          .type = KeyType::real,
