@@ -318,8 +318,8 @@ class Report(RunFolderTest):
         """The same onset to its end, and cut off where it becomes steeper: t_relax of what is left is too short."""
         self.write_all()
         self.write('case.yaml', CASE.replace('sedimentation', 'avalanche'))
-        def cut_at(end):
-            times = np.arange(0.0, end + 0.1, 0.25)
+        def cut_at(end, row=0.25):
+            times = np.append(np.arange(0.0, end - 1e-6, row), end)
             velocity = 0.06 + 0.065 * (np.logaddexp(0.0, times - 20.0) - np.logaddexp(0.0, times - 24.0))
             self.write('history.csv', 'step,time,mean_velocity_norm\n'
                        + ''.join(f'{n},{t},{u}\n' for n, (t, u) in enumerate(zip(times, velocity))))
@@ -330,6 +330,9 @@ class Report(RunFolderTest):
         self.assertLess(relaxation.relaxation_bound(cut), relaxation.relaxation_time(whole) - 0.5)
         bound = np.floor(100.0 * relaxation.relaxation_bound(cut)) / 100.0
         self.assertIn(typeset(f'Relaxation time > {bound:.2f} t_c'), self.make())
+        uneven = cut_at(20.5, row=0.26)  # its last row comes sooner than the others
+        self.assertIsNone(relaxation.relaxation_time(uneven))
+        self.assertIsNotNone(relaxation.relaxation_bound(uneven))
 
     def test_rows_need_not_divide_the_length_of_the_fit(self):
         time = 0.26 * np.arange(60)
