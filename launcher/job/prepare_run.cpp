@@ -78,7 +78,7 @@ void empty_run_folder(const RunFolder& folder) {
           folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.film(),
           folder.view(), folder.checkpoints(), folder.stop(), folder.root / write_file,
           folder.root / checkpoint_file, folder.recordings(), folder.root / "timeline",
-          folder.root / "differences", folder.root / "probes.csv"})
+          folder.root / "differences", folder.root / "contacts", folder.root / "probes.csv"})
         fs::remove_all(part);
     CheckpointSets(folder.root).remove_unfinished();
 }

@@ -53,6 +53,7 @@ TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
     scratch.write("run/STOP", "130");
     scratch.write("run/probes.csv", "time\n");
     scratch.write("run/view.py", "old");
+    scratch.write("run/contacts/problem_10.dat", "old");
     scratch.write("run/thesis.tex", "mine");
     const RunFolder folder =
         make_run_folder({.out = scratch.path() / "run", .force = true}, "case");
@@ -60,6 +61,7 @@ TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
     EXPECT_FALSE(fs::exists(folder.stop()));
     EXPECT_FALSE(fs::exists(folder.root / "probes.csv"));
     EXPECT_FALSE(fs::exists(folder.view()));
+    EXPECT_FALSE(fs::exists(folder.root / "contacts"));
     EXPECT_TRUE(fs::exists(folder.root / "thesis.tex"));
 }
 
