@@ -17,6 +17,8 @@ namespace {
 // Does [centre - radius, centre + radius] meet [lower, upper], directly or as a periodic image?
 bool meets(double centre, double radius, double lower, double upper, double period) {
     const auto overlaps = [&](double c) { return c + radius >= lower && c - radius <= upper; };
+    // Positions may run on across a cyclic side: the image within a period of the box's middle.
+    if (period > 0.0) centre -= period * std::round((centre - 0.5 * (lower + upper)) / period);
     return overlaps(centre) ||
            (period > 0.0 && (overlaps(centre - period) || overlaps(centre + period)));
 }

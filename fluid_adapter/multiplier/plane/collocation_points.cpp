@@ -159,16 +159,19 @@ void for_cells_inside(const FluidField& field, const ImmersedGrain& grain, Visit
     Layers across = layers_of(grid, 0, grain), up = layers_of(grid, 1, grain);
     const double around = cut_to_a_turn(grid, 0, across), over = cut_to_a_turn(grid, 1, up);
     const Inside body(grain);
-    const auto inside = [&](double x, double y) {
-        return body(x, y) || (around > 0.0 && body(x + around, y)) ||
-               (over > 0.0 && body(x, y + over));
+    // Leaves the arm at the image that is inside.
+    const auto inside = [&](double& x, double& y) {
+        if (body(x, y)) return true;
+        if (around > 0.0 && body(x + around, y)) return x += around, true;
+        if (over > 0.0 && body(x, y + over)) return y += over, true;
+        return false;
     };
     for (int j = up.low; j <= up.high; ++j) {
         const int row = grid.wrapped(1, j);
         if (row < 0) continue;
-        const double arm_y = grid.centre(1, j) - grain.position.y();
+        const double above = grid.centre(1, j) - grain.position.y();
         for (int i = across.low; i <= across.high; ++i) {
-            const double arm_x = grid.centre(0, i) - grain.position.x();
+            double arm_x = grid.centre(0, i) - grain.position.x(), arm_y = above;
             if (!inside(arm_x, arm_y)) continue;
             const int column = grid.wrapped(0, i);
             if (column < 0) continue;
@@ -181,6 +184,24 @@ void for_cells_inside(const FluidField& field, const ImmersedGrain& grain, Visit
 
 double relative_depth(const ImmersedGrain& grain, const InteriorCell& point) {
     return (point.arm_x * point.arm_x + point.arm_y * point.arm_y) / (grain.radius * grain.radius);
+}
+
+/// Calls visit(x) for the images x of `apart`, which is the nearest one, up to a distance `outer`;
+/// for that itself in any case.
+template <class Visit>
+void for_images(const CellGrid& grid, const Eigen::Vector3d& apart, double outer,
+                const Visit& visit) {
+    const auto most = [&](int axis) {
+        // `apart` is at most L/2 away: image i is at least (|i| - 1/2) L away, and out of reach
+        // where that exceeds `outer`.
+        return grid.cyclic(axis) ? static_cast<int>(outer / grid.length(axis) + 0.5) : 0;
+    };
+    for (int i = -most(0); i <= most(0); ++i)
+        for (int j = -most(1); j <= most(1); ++j) {
+            const Eigen::Vector3d image =
+                apart + Eigen::Vector3d(i * grid.length(0), j * grid.length(1), 0.0);
+            if ((i == 0 && j == 0) || image.norm() <= outer) visit(image);
+        }
 }
 
 }  // namespace
@@ -204,6 +225,9 @@ void PointPlacement::place(const FluidField& field, const std::vector<ImmersedGr
         compare(field.grid(), grains, a, b);
         compare(field.grid(), grains, b, a);
     }
+    for (int g = 0; g < static_cast<int>(grains.size()); ++g)
+        if (meets_itself(field.grid(), grains[g], local_size_[g]))
+            compare(field.grid(), grains, g, g);
     // Rule 4. It also sets slot_ of the cells in use, by which collect_interior knows rule 6.
     collect_boundary(field, grains, points);
     // Rule 5
@@ -274,6 +298,15 @@ void PointPlacement::find_pairs(const CellGrid& grid, const std::vector<Immersed
     }
 }
 
+/// Whether points of the grain may be too near to those of its own image.
+bool PointPlacement::meets_itself(const CellGrid& grid, const ImmersedGrain& grain,
+                                  double size) const {
+    const double least = 2.0 * grain.radius + rules_.spacing * size;
+    return rules_.boundary && grain.has_boundary_points &&
+           ((grid.cyclic(0) && grid.length(0) < least) ||
+            (grid.cyclic(1) && grid.length(1) < least));
+}
+
 /// Drops the points of grain a within `reach` of wall b or of any of its images: of a wall that is
 /// longer than half a period the one with the nearest middle need not be the nearest.
 void PointPlacement::keep_off_wall(const CellGrid& grid, const std::vector<ImmersedGrain>& grains,
@@ -281,22 +314,13 @@ void PointPlacement::keep_off_wall(const CellGrid& grid, const std::vector<Immer
     const ImmersedGrain& wall = grains[b];
     const double outer = grains[a].radius + wall.radius + reach;
     const Eigen::Matrix3d to_body = wall.orientation.transpose();
-    const auto most = [&](int axis) {
-        // `apart` is the nearest image, at most L/2 away: image i is at least (|i| - 1/2) L away,
-        // and out of reach where that exceeds `outer`.
-        return grid.cyclic(axis) ? static_cast<int>(outer / grid.length(axis) + 0.5) : 0;
-    };
-    for (int i = -most(0); i <= most(0); ++i)
-        for (int j = -most(1); j <= most(1); ++j) {
-            const Eigen::Vector3d from_image =
-                apart + Eigen::Vector3d(i * grid.length(0), j * grid.length(1), 0.0);
-            if (from_image.norm() > outer) continue;
-            for (int c = first_[a]; c < first_[a + 1]; ++c)
-                if (candidates_[c].fate != Fate::near_wall &&
-                    wall.shape->least_distance(to_body * (from_image + candidates_[c].arm),
-                                               wall.radius) <= reach)
-                    candidates_[c].fate = Fate::near_wall;
-        }
+    for_images(grid, apart, outer, [&](const Eigen::Vector3d& from_image) {
+        for (int c = first_[a]; c < first_[a + 1]; ++c)
+            if (candidates_[c].fate != Fate::near_wall &&
+                wall.shape->least_distance(to_body * (from_image + candidates_[c].arm),
+                                           wall.radius) <= reach)
+                candidates_[c].fate = Fate::near_wall;
+    });
 }
 
 void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a,
@@ -307,6 +331,17 @@ void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGra
     const double outer = grains[b].radius + reach;
     const Eigen::Vector3d apart = grid.nearest_image(grains[a].position - grains[b].position);
     if (is_wall) return keep_off_wall(grid, grains, a, b, apart, reach);
+    // Also the second nearest image: across a short period two grains touch on both sides, and a
+    // grain may touch itself.
+    for_images(grid, apart, grains[a].radius + outer, [&](const Eigen::Vector3d& from_image) {
+        if (a != b || from_image != apart) compare_image(grains, a, b, from_image, reach);
+    });
+}
+
+/// `apart`: from an image of grain b to grain a.
+void PointPlacement::compare_image(const std::vector<ImmersedGrain>& grains, int a, int b,
+                                   const Eigen::Vector3d& apart, double reach) {
+    const double outer = grains[b].radius + reach;
     const Eigen::Matrix3d to_body = grains[b].orientation.transpose();
     for (int c = first_[a]; c < first_[a + 1]; ++c) {
         Candidate& candidate = candidates_[c];

@@ -20,7 +20,8 @@
 //   1. A boundary point closer than 2 cells to a wall, or to a body that has interior points only,
 //      is dropped.
 //   2. A boundary point inside another grain is dropped.
-//   3. Two boundary points of different grains closer than the point spacing are both dropped.
+//   3. Two boundary points of different grains closer than the point spacing are both dropped. In 2
+//      and 3 every image across a cyclic side counts as another grain, also of the grain itself.
 //   4. A boundary point whose 2 x 2 cells leave the grid is dropped.
 //   5. A cell centre inside several grains belongs to the one in which it lies deepest (smallest
 //      distance from the centre over R_h; the smaller id if equal).
@@ -126,6 +127,9 @@ class PointPlacement {
     void find_pairs(const CellGrid& grid, const std::vector<ImmersedGrain>& grains);
     void apply_wall_rule(const CellGrid& grid, const std::vector<ImmersedGrain>& grains);
     void compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a, int b);
+    void compare_image(const std::vector<ImmersedGrain>& grains, int a, int b,
+                       const Eigen::Vector3d& apart, double reach);
+    bool meets_itself(const CellGrid& grid, const ImmersedGrain& grain, double size) const;
     void keep_off_wall(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a, int b,
                        const Eigen::Vector3d& apart, double reach);
     void collect_boundary(const FluidField& field, const std::vector<ImmersedGrain>& grains,

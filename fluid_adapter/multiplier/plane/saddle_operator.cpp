@@ -2,6 +2,7 @@
 #include "fluid_adapter/multiplier/plane/saddle_operator.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <sstream>
 #include <stdexcept>
@@ -21,6 +22,21 @@ void demand_positive(const Eigen::Matrix3d& effective, GrainId id) {
          << " kg/m and moment of inertia " << effective(2, 2)
          << " kg m, which is not positive definite: use a larger grains.density_ratio, more "
             "fluid.cells_per_diameter, or check why the grain ties no fluid";
+    throw std::runtime_error(text.str());
+}
+
+/// Throws where A of a grain of the fluid's density and the fluid in its interior cells is
+/// singular: it has no cell of its own, or a single one, about which it turns without inertia.
+void demand_regular(const Eigen::Matrix3d& inertia, const Eigen::Matrix3d& effective, GrainId id) {
+    // A against A + T^T G^-1 T, which is positive: its eigenvalues have no units.
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+        inertia, effective, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+    if (solver.eigenvalues().cwiseAbs().minCoeff() > 1e-10) return;
+    std::ostringstream text;
+    text << "grain " << id
+         << " has the fluid's density and too few cells inside its surface points, so that nothing "
+            "gives it an inertia: use more fluid.cells_per_diameter, a larger fluid.point_spacing, "
+            "or fluid.points: interior";
     throw std::runtime_error(text.str());
 }
 
@@ -67,9 +83,10 @@ void SaddleOperator::factorise() {
             continue;
         }
         // Not by Cholesky: A alone may be indefinite, for a light grain with boundary points.
-        inverse_[g] = body_[g].inverse();
         effective_[g] = body_[g] + tied_[g];
         demand_positive(effective_[g], ids_[g]);
+        demand_regular(body_[g], effective_[g], ids_[g]);
+        inverse_[g] = body_[g].inverse();
         inverse_effective_[g] = effective_[g].inverse();
     }
 }

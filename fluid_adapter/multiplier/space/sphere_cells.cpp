@@ -27,21 +27,35 @@ void SphereCells::find(const std::vector<ImmersedGrain>& grains) {
     join_shut_in();
 }
 
+/// The layers within `reach` of a coordinate; of a sphere that reaches round a cyclic axis one
+/// turn, those up to half a period away, else its first and last layers would be the same cells.
+SphereCells::Layers SphereCells::layers(int axis, double at, double reach) const {
+    Layers found{grid().layer(axis, at - reach), grid().layer(axis, at + reach), false};
+    const int turn = grid().counts[axis];
+    if (!grid().cyclic(axis) || found.high - found.low < turn) return found;
+    found.low = grid().layer_below(axis, at - 0.5 * grid().length(axis)) + 1;
+    found.high = found.low + turn - 1;
+    found.cut = true;
+    return found;
+}
+
 void SphereCells::find_runs(int g) {
     runs_[g].clear();
     const Eigen::Vector3d& at = (*grains_)[g].position;
     const double radius = (*grains_)[g].radius;
-    for (int j = grid().layer(y, at.y() - radius); j <= grid().layer(y, at.y() + radius); ++j) {
+    const Layers up = layers(y, at.y(), radius);
+    for (int j = up.low; j <= up.high; ++j) {
         const int layer = grid().wrapped(y, j);
         // Also of the layers beside this rank's, for the mask; add_run keeps only own cells.
         if (layer < 0 || mask_cell(0, layer, 0) >= covered_.size()) continue;
-        const double dy = grid().centre(y, j) - at.y();
+        const double dy = up.cut ? arm(g, y, layer) : grid().centre(y, j) - at.y();
         // Half the width in z of the sphere's cut by this layer of centres
         const double across = std::sqrt(std::max(0.0, radius * radius - dy * dy));
-        const int front = grid().layer(z, at.z() + across);
-        for (int k = grid().layer(z, at.z() - across); k <= front; ++k)
+        const Layers deep = layers(z, at.z(), across);
+        for (int k = deep.low; k <= deep.high; ++k)
             if (const int row = grid().wrapped(z, k); row >= 0)
-                find_row({g, layer, row, dy, grid().centre(z, k) - at.z()});
+                find_row(
+                    {g, layer, row, dy, deep.cut ? arm(g, z, row) : grid().centre(z, k) - at.z()});
     }
 }
 
@@ -91,7 +105,8 @@ void SphereCells::find_row(const Row& row) {
     // Half a chord, rounded outwards to whole cells; `belongs` decides at both ends. Between them
     // nothing needs to be asked: the sphere, cut by planes, is convex.
     const double half = std::sqrt(square), at = grain.position[x];
-    int low = grid().layer(x, at - half), high = grid().layer(x, at + half);
+    const Layers across = layers(x, at, half);
+    int low = across.low, high = across.high;
     if (!grid().cyclic(x)) low = std::max(low, 0), high = std::min(high, grid().counts[x] - 1);
     const auto mine = [&](int i) { return belongs(row.grain, grid().wrapped(x, i), row.j, row.k); };
     while (low <= high && !mine(low)) ++low;

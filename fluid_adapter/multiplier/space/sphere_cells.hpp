@@ -45,12 +45,17 @@ class SphereCells {
         int grain, j, k;
         double dy, dz;  // of its cells' centres from the grain's [m]
     };
+    struct Layers {
+        int low, high;  // not wrapped
+        bool cut;       // to one turn
+    };
     struct Joined {
         int grain;
         Place at;
     };
 
     void find_neighbours(const std::vector<ImmersedGrain>& grains);
+    Layers layers(int axis, double at, double reach) const;
     void find_runs(int grain);
     void find_row(const Row& row);
     bool belongs(int grain, int i, int j, int k) const;

@@ -38,6 +38,12 @@ TEST(ExchangePlan, PeriodicImagesAreRouted) {
     const ExchangePlan plan({{{0, -1, -1}, {5, 1, 1}}, {{5, -1, -1}, {10, 1, 1}}}, {10, 0, 0});
     const Motion motion{{grain(1, 9.8)}, {}};
     EXPECT_EQ(plan.by_place(motion)[0].places.size(), 1u);
+    // Positions may run on across the side.
+    for (const double x : {-10.2, 29.8, 1009.8}) {
+        const auto routed = plan.by_place({{grain(1, x)}, {}});
+        EXPECT_EQ(routed[0].places.size(), 1u) << x;
+        EXPECT_EQ(routed[1].places.size(), 1u) << x;
+    }
 }
 
 TEST(ExchangePlan, PlacesAreFoundAnewOnlyWhenGrainsMigrateAppearOrVanish) {

@@ -128,6 +128,26 @@ TEST(CollocationPoints, TouchingGrainsLoseTheSamePointsWhateverTheirOrder) {
     EXPECT_EQ(ab.interior_begin[1], ba.interior_begin[2] - ba.interior_begin[1]);
 }
 
+// Across a period of two diameters two discs touch on both sides: as many points are dropped there
+// as in the middle of a row of discs.
+TEST(CollocationPoints, EveryImageCounts) {
+    MemoryField wide(96, 64, Side::cyclic), narrow(32, 64, Side::cyclic),
+        single(17, 64, Side::cyclic);
+    const int at_one_contact =
+        place(wide, {disc(1, 2.0, 2.0), disc(2, 3.0, 2.0)}).dropped.near_point;
+    ASSERT_GT(at_one_contact, 4);
+    const CollocationPoints two = place(narrow, {disc(1, 0.5, 2.0), disc(2, 1.5, 2.0)});
+    EXPECT_EQ(two.dropped.near_point, 2 * at_one_contact);
+    EXPECT_EQ(boundary_points(two, 0), boundary_points(two, 1));
+    // A disc that has a gap of a cell to its own image, and two with the same gap.
+    const int of_itself = place(single, {disc(1, 0.5, 2.0)}).dropped.near_point;
+    EXPECT_GT(of_itself, 2);
+    MemoryField pair(34, 64, Side::cyclic);
+    const double period = 17 * h;
+    EXPECT_EQ(place(pair, {disc(1, 0.5, 2.0), disc(2, 0.5 + period, 2.0)}).dropped.near_point,
+              2 * of_itself);
+}
+
 TEST(CollocationPoints, SurvivorsOfDifferentGrainsKeepTheirDistance) {
     MemoryField field(64, 64, Side::wall);
     const std::vector<ImmersedGrain> grains = {disc(1, 1.5, 2.0), disc(2, 2.45, 2.0)};  // overlap

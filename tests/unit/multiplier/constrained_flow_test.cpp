@@ -557,5 +557,22 @@ TEST(SaddleOperator, RefusesAGrainWithoutInertia) {
                  std::runtime_error);
 }
 
+// Four cells wide, with a cell's corner in the middle: its points take all cells inside.
+TEST(SaddleOperator, RefusesANeutralGrainWithoutCells) {
+    ImmersedGrain small = disc(7, 3.0, 3.0, Planar::Zero(), 1.0);
+    small.radius = 0.125;
+    small.effective_mass = small.effective_inertia = 0.0;
+    Problem problem({small}, true);
+    ASSERT_EQ(problem.points.interior_begin[1], 0);
+    try {
+        problem.begin();
+        FAIL() << "A is singular";
+    } catch (const std::runtime_error& refusal) {
+        EXPECT_NE(std::string(refusal.what()).find("grain 7 has the fluid's density"),
+                  std::string::npos)
+            << refusal.what();
+    }
+}
+
 }  // namespace
 }  // namespace turbidite

@@ -142,25 +142,47 @@ TEST(SphereCells, AreThoseInsideDividedByPlanes) {
     }
 }
 
-TEST(SphereCells, RunsKnowTheirArms) {
-    const SpaceField field({30, 32, 31}, Side::cyclic);
-    const std::vector<ImmersedGrain> grains = heap();
-    SphereCells cells(field.layers());
-    cells.find(grains);
-    int split = 0;
+/// Of every cell that of the nearest image; calls visit(g, i) for cells in column i of grain g.
+template <class Visit>
+void expect_right_arms(const SpaceField& field, const SphereCells& cells,
+                       const std::vector<ImmersedGrain>& grains, const Visit& visit) {
+    const auto [nx, ny, nz] = field.grid().counts;
     for (std::size_t g = 0; g < grains.size(); ++g)
         for (const CellRun& run : cells.runs(g))
             for (int c = 0; c < run.count; ++c) {
-                const int i = run.cell % 30 + c, k = run.cell / 30 % 31, j = run.cell / (30 * 31);
+                const int i = run.cell % nx + c, k = run.cell / nx % nz, j = run.cell / (nx * nz);
                 const Eigen::Vector3d centre(field.grid().centre(0, i), field.grid().centre(1, j),
                                              field.grid().centre(2, k));
                 const Eigen::Vector3d arm = run.first + c * edge * Eigen::Vector3d::UnitX();
                 const Eigen::Vector3d off =
                     field.grid().nearest_image(centre - grains[g].position) - arm;
                 EXPECT_LT(off.norm(), 1e-12);
-                split += i == 29 && g == 3;
+                visit(static_cast<int>(g), i);
             }
+}
+
+TEST(SphereCells, RunsKnowTheirArms) {
+    const SpaceField field({30, 32, 31}, Side::cyclic);
+    const std::vector<ImmersedGrain> grains = heap();
+    SphereCells cells(field.layers());
+    cells.find(grains);
+    int split = 0;
+    expect_right_arms(field, cells, grains, [&](int g, int i) { split += i == 29 && g == 3; });
     EXPECT_GT(split, 10) << "no run crosses the cyclic side";
+}
+
+// With a surface shift a sphere may reach farther than half a period: no cell is there twice.
+TEST(SphereCells, OfASphereThatMeetsItselfAreThereOnce) {
+    for (const Eigen::Vector3d& at : {Eigen::Vector3d(0.47, 0.53, 0.36), {0.02, 0.98, 0.51}}) {
+        const SpaceField field({10, 10, 10}, Side::cyclic);
+        const std::vector<ImmersedGrain> grains = {sphere(1, at, 0.53)};
+        SphereCells cells(field.layers());
+        cells.find(grains);
+        const std::vector<int> wanted = owners(field, grains);
+        EXPECT_GT(std::count(wanted.begin(), wanted.end(), 0), 500);
+        EXPECT_EQ(found_owners(field, cells, 1), wanted);
+        expect_right_arms(field, cells, grains, [](int, int) {});
+    }
 }
 
 /// A cage of eight spheres on the corners of a cube, so close that single cells are left between.
