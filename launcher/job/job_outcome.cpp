@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "coupler/protocol/files/run_files.hpp"
 #include "coupler/protocol/files/kept_lines.hpp"
+#include "coupler/protocol/files/run_files.hpp"
 #include "coupler/protocol/received.hpp"
 #include "launcher/job/folder/run_json.hpp"
 
