@@ -12,21 +12,19 @@ namespace turbidite {
 namespace {
 
 // A heap that is wide enough for several cells, and spreads over their borders.
-const char* const heap = R"(
+const char* const in_space = R"(
 dimension: 3
 domain: {size: [24, 9, 6], front: cyclic, back: cyclic, right: free}
 grains: {adapter: standalone-nscd, generator: lattice, region: [16, 4, 6], compacity: 0.55, jitter: 0.02}
-fluid: {enabled: false}
-contact: {friction: 0.3}
-time: {step: 0.02, end: 2}
-output: {interval: 0.5}
-checkpoint: {interval: 1}
 )";
 
-// The same in the plane, wider.
-const char* const heap_in_the_plane = R"(
+// Wider.
+const char* const in_the_plane = R"(
 domain: {size: [60, 12], right: free}
 grains: {adapter: standalone-nscd, generator: lattice, region: [40, 6], compacity: 0.829, jitter: 0.02}
+)";
+
+const char* const dry_heap = R"(
 fluid: {enabled: false}
 contact: {friction: 0.3}
 time: {step: 0.02, end: 2}
@@ -36,6 +34,9 @@ checkpoint: {interval: 1}
 
 class GrainsRanks : public ShellTest {
  protected:
+    void write_case(const std::string& grains) const {
+        scratch.write("case.yaml", grains + dry_heap);
+    }
     Answer turbidite(const std::string& words) const {
         return shell(std::string("timeout 170 ") + TURBIDITE_PROGRAM + " " + words);
     }
@@ -61,12 +62,12 @@ class GrainsRanks : public ShellTest {
 
 class SpaceRanks : public GrainsRanks {
  protected:
-    void SetUp() override { scratch.write("case.yaml", heap); }
+    void SetUp() override { write_case(in_space); }
 };
 
 class PlaneRanks : public GrainsRanks {
  protected:
-    void SetUp() override { scratch.write("case.yaml", heap_in_the_plane); }
+    void SetUp() override { write_case(in_the_plane); }
 };
 
 TEST_F(SpaceRanks, HaveTheDigitsOfOne) {

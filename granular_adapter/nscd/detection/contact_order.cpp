@@ -115,14 +115,4 @@ std::vector<std::int32_t> TopDownOrder::take() {
     return order;
 }
 
-void order_top_down(std::vector<ContactPoint>& points, const Bodies& bodies, const Vec3& gravity,
-                    double band) {
-    TopDownOrder order(bodies, gravity, band);
-    for (const ContactPoint& point : points) order.add(point);
-    std::vector<ContactPoint> sorted;
-    sorted.reserve(points.size());
-    for (const std::int32_t i : order.take()) sorted.push_back(points[static_cast<std::size_t>(i)]);
-    points = std::move(sorted);
-}
-
 }  // namespace turbidite::nscd

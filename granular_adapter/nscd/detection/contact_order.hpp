@@ -14,15 +14,11 @@
 
 namespace turbidite::nscd {
 
-/// Sorts along gravity; without gravity the order stays as it is. Heights that differ by less than
-/// `band` [m] count as equal. The result depends only on the input.
-void order_top_down(std::vector<ContactPoint>& points, const Bodies& bodies, const Vec3& gravity,
-                    double band);
-
-/// The same order without the points, for those that are cheaper to find again than to move.
+/// Sorts along gravity; without gravity the order stays as it is. The result depends only on the
+/// input.
 class TopDownOrder {
  public:
-    /// Keeps a reference to the bodies.
+    /// Keeps a reference to the bodies. Heights that differ by less than `band` [m] count as equal.
     TopDownOrder(const Bodies& bodies, const Vec3& gravity, double band);
 
     void add(const ContactPoint& point);
@@ -43,5 +39,16 @@ class TopDownOrder {
     Vec3 down_{};
     std::vector<Place> places_;
 };
+
+/// The points in an order that has none so far (TopDownOrder, CellOrder). Where points are cheaper
+/// to find again than to move, add them to the order one by one instead.
+template <class Order>
+std::vector<ContactPoint> sorted_by(Order& order, const std::vector<ContactPoint>& points) {
+    for (const ContactPoint& point : points) order.add(point);
+    std::vector<ContactPoint> sorted;
+    sorted.reserve(points.size());
+    for (const std::int32_t i : order.take()) sorted.push_back(points[static_cast<std::size_t>(i)]);
+    return sorted;
+}
 
 }  // namespace turbidite::nscd

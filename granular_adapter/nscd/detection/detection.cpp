@@ -13,6 +13,9 @@ namespace {
 // side. Larger values mix layers, which costs sweeps.
 constexpr double one_height = 0.01;
 
+// Of the pairs that are near, on one rank every one is wanted.
+constexpr auto all = [](const auto&) { return true; };
+
 double deepest(const std::vector<ContactPoint>& points) {
     double overlap = 0.0;
     for (const ContactPoint& point : points) overlap = std::max(overlap, -point.gap);
@@ -71,23 +74,12 @@ void Detection::each_near(const Look& look, const Visit& visit) const {
             if (!look.bodies.fixed[i]) visit(Near{-1, i, w});
 }
 
-std::vector<ContactPoint> Detection::unordered(const Look& look) const {
+template <class Wanted>
+std::vector<ContactPoint> Detection::unordered(const Look& look, const Wanted& wanted) const {
     std::vector<ContactPoint> points;
-    each_near(look, [&](const Near& near) { add(look, near, points); });
-    return points;
-}
-
-/// Points of polygons cost more to find again than to move.
-template <class Order, class Wanted>
-std::vector<ContactPoint> Detection::moved_in_order(const Look& look, Order& order,
-                                                    const Wanted& wanted) const {
-    std::vector<ContactPoint> found, points;
     each_near(look, [&](const Near& near) {
-        if (wanted(near)) add(look, near, found);
+        if (wanted(near)) add(look, near, points);
     });
-    for (const ContactPoint& point : found) order.add(point);
-    points.reserve(found.size());
-    for (const std::int32_t i : order.take()) points.push_back(found[static_cast<std::size_t>(i)]);
     return points;
 }
 
@@ -97,7 +89,8 @@ std::vector<ContactPoint> Detection::moved_in_order(const Look& look, Order& ord
 template <class Order, class Wanted>
 std::vector<ContactPoint> Detection::in_order(const Look& look, Order& order,
                                               const Wanted& wanted) const {
-    if (has_corners()) return moved_in_order(look, order, wanted);
+    // Points of polygons cost more to find again than to move.
+    if (has_corners()) return sorted_by(order, unordered(look, wanted));
     struct Found {
         Near near;
         std::size_t point, of;  // of the points of the pair
@@ -140,20 +133,13 @@ OrderedPoints Detection::ordered_points(const Search& search) const {
     if (bodies.size() == 0) return {};
     const Look look{bodies, walls, reach, share, narrow_.place(bodies, walls)};
     const double band = one_height * *std::min_element(bodies.radius.begin(), bodies.radius.end());
-    const auto all = [](const Near&) { return true; };
     if (order_ == ContactOrder::cells && !has_corners()) {
         CellOrder order({bodies, walls, box_, gravity, reach, share, band});
         std::vector<ContactPoint> points = in_order(look, order, all);
         return {std::move(points), order.take_cells(), {}};
     }
-    if (!has_corners()) {
-        TopDownOrder order(bodies, gravity, band);
-        return {in_order(look, order, all), {}, {}};
-    }
-    // Points of polygons cost more to find again than to move.
-    std::vector<ContactPoint> points = unordered(look);
-    order_top_down(points, bodies, gravity, band);
-    return {std::move(points), {}, {}};
+    TopDownOrder order(bodies, gravity, band);
+    return {in_order(look, order, all), {}, {}};
 }
 
 OrderedPoints Detection::ordered_points(const Search& search, const ParityGrid& grid,
@@ -180,7 +166,7 @@ OrderedPoints Detection::ordered_points(const Search& search, const ParityGrid& 
 
 double Detection::deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls) const {
     // With reach and share zero, only points with g < 0 are reported.
-    return deepest(unordered({bodies, walls, 0.0, 0.0, narrow_.place(bodies, walls)}));
+    return deepest(unordered({bodies, walls, 0.0, 0.0, narrow_.place(bodies, walls)}, all));
 }
 
 double Detection::deepest_overlap(const Bodies& bodies, const std::vector<Wall>& walls,

@@ -73,12 +73,10 @@ class Detection {
     void add(const Look& look, const Near& near, std::vector<ContactPoint>& points) const;
     template <class Visit>
     void each_near(const Look& look, const Visit& visit) const;
-    std::vector<ContactPoint> unordered(const Look& look) const;
+    template <class Wanted>
+    std::vector<ContactPoint> unordered(const Look& look, const Wanted& wanted) const;
     template <class Order, class Wanted>
     std::vector<ContactPoint> in_order(const Look& look, Order& order, const Wanted& wanted) const;
-    template <class Order, class Wanted>
-    std::vector<ContactPoint> moved_in_order(const Look& look, Order& order,
-                                             const Wanted& wanted) const;
 
     NarrowPhase narrow_;
     PeriodicBox box_;

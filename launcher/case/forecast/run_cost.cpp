@@ -196,8 +196,8 @@ std::int64_t best_grains_ranks(std::size_t spheres, double cores) {
 
 std::string grains_ranks_warning(const ResolvedCase& resolved, double cores) {
     const Settings& settings = resolved.settings;
+    if (!shares_contacts(settings)) return "";
     const auto ranks = static_cast<double>(settings.integer("grains.ranks"));
-    if (ranks < 2.0 || grains_adapter(settings).contacts != Contacts::rigid) return "";
     const std::string begin = fmt::format(
         "grains.ranks = {:.0f} for {:.0f} grains on {:.0f} cores: ", ranks, count(resolved), cores);
     if (ranks > cores)

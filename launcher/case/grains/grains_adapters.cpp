@@ -51,6 +51,11 @@ const GrainsAdapter& grains_adapter(const Settings& settings) {
                   "grains.adapter = " + name + " has no program in this version");
 }
 
+bool shares_contacts(const Settings& settings) {
+    return settings.integer("grains.ranks") > 1 &&
+           grains_adapter(settings).contacts == Contacts::rigid;
+}
+
 bool supports(const GrainsAdapter& adapter, const SchemeEntry& scheme) {
     return (adapter.takes_inertia || !scheme.needs_inertia()) &&
            (adapter.repeats_windows || !scheme.repeats);

@@ -69,6 +69,9 @@ const std::vector<GrainsAdapter>& grains_adapters();
 /// program in this version.
 const GrainsAdapter& grains_adapter(const Settings& settings);
 
+/// Whether several ranks of this project's contact engine share the contacts.
+bool shares_contacts(const Settings& settings);
+
 /// Whether the adapter can play its part in a scheme with a fluid.
 bool supports(const GrainsAdapter& adapter, const SchemeEntry& scheme);
 

@@ -152,11 +152,6 @@ Ruling ranks_are_supported(const Settings& s) {
                     adapters_that([](const GrainsAdapter& a) { return a.most_ranks > 1; }))};
 }
 
-/// Whether several ranks of this project's contact engine share the contacts.
-bool shares_contacts(const Settings& s) {
-    return s.integer("grains.ranks") > 1 && grains_adapter(s).contacts == Contacts::rigid;
-}
-
 Ruling solver_works_on_ranks(const Settings& s) {
     if (!shares_contacts(s) || is(s, "contact.solver", "nlgs")) return std::nullopt;
     return Objection{fmt::format("{} solves contacts on one rank.", s.text("contact.solver")),
