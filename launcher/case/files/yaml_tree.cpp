@@ -25,6 +25,7 @@ class Walk {
         if (node.IsScalar()) check_text(node);
         for (const auto& item : node)
             if (node.IsMap()) {
+                check_key(item.first);
                 through(item.first, depth + 1);
                 through(item.second, depth + 1);
             } else {
@@ -42,6 +43,14 @@ class Walk {
             throw YamlFault{line_of(node),
                             fmt::format("stands for more than {} values", most_values),
                             "Write fewer, in particular fewer aliases of aliases (*name)."};
+    }
+
+    /// YAML 1.2 has no merge keys, and yaml-cpp does not follow them.
+    static void check_key(const YAML::Node& key) {
+        if (key.IsScalar() && key.Scalar() == "<<")
+            throw YamlFault{
+                line_of(key), "has the merge key <<, which is not followed",
+                "Write these keys out, or let an alias (*name) stand for all of a block."};
     }
 
     static void check_text(const YAML::Node& node) {

@@ -104,7 +104,7 @@ def velocities(runs):
 
 
 def relaxation_times(runs):
-    figure, axes = curves.panel('', r'$\phi$', r'$t_\mathrm{relax}\,/\,t_c$', size=(6.5, 4.2))
+    figure, axes = curves.panel('', r'$\phi$', r'$t_\mathrm{relax}\,/\,t_c$', size=(8.0, 4.2))
     for k, reynolds in enumerate(REYNOLDS):
         draw_waits(axes, k, reynolds, [(float(phi), one) for phi in COMPACITIES
                                        for one in waiting.waits(runs, reynolds, phi)])
@@ -117,7 +117,8 @@ def relaxation_times(runs):
         return None
     if runs.columns == OPEN:
         draw_estimate(axes, darcy.permeabilities(runs))
-    axes.legend(fontsize=8)
+    # Beside the axes: points, bounds and lines together reach every corner.
+    axes.legend(fontsize=8, loc='upper left', bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)
     return figure
 
 
@@ -149,11 +150,10 @@ def draw_estimate(axes, lattices):
 def pore_volume(runs):
     figure, axes = curves.panel('', r'$\delta x\,/\,x_0$', r'$\delta V\,/\,V_0$', size=(6.5, 4.2))
     for k, compacity in enumerate(COMPACITIES):
-        for run in runs.immersed(compacity=compacity, reynolds='89'):
-            found = pores.pore_curve(run)
-            if found is not None:
-                axes.plot(found.displacement, found.change, label=rf'$\phi = {compacity}$', linestyle=curves.dash(k),
-                          linewidth=1.4)
+        found = [pores.pore_curve(run) for run in runs.immersed(compacity=compacity, reynolds='89')]
+        for seed, curve in enumerate(curve for curve in found if curve is not None):
+            axes.plot(curve.displacement, curve.change, label=None if seed else rf'$\phi = {compacity}$', color=f'C{k}',
+                      linestyle=curves.dash(k), linewidth=1.4)
     axes.axhline(0.0, color='black', linewidth=0.6)
     if axes.get_legend_handles_labels()[1]:
         axes.legend(fontsize=8)

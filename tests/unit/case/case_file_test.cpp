@@ -212,6 +212,13 @@ TEST_F(CaseFile, MissingFileAndBadYaml) {
     EXPECT_SAYS(text, "is not YAML");
 }
 
+// The parser takes it for a key of that name.
+TEST_F(CaseFile, AMergeKeyIsCalledAMergeKey) {
+    const std::string text = refusal("contact:\n  <<: {friction: 0.3}\n");
+    EXPECT_SAYS(text, "has the merge key <<");
+    EXPECT_EQ(text.find("Did you mean"), std::string::npos) << text;
+}
+
 // The parser calls a tab an illegal map value, in this or in another line.
 TEST_F(CaseFile, ATabIsCalledATab) {
     const std::string text = refusal("contact:\n\tfriction: 0.3\n");
