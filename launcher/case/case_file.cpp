@@ -109,6 +109,17 @@ EarlierStart earlier_run(const std::string& text) {
     return {run, {resolved.scales, std::move(resolved.shapes), std::move(materials)}};
 }
 
+ResolvedCase load(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                  const std::string& from, const GivenGrains& given) {
+    ResolvedCase result =
+        resolved_case(read_case_entries(file, overrides), file.parent_path(), given);
+    result.name = file.stem().string();
+    result.file = std::filesystem::absolute(file).lexically_normal();
+    result.overrides = overrides;
+    result.from = from;
+    return result;
+}
+
 }  // namespace
 
 bool all_round(const ResolvedCase& resolved) {
@@ -120,12 +131,15 @@ ResolvedCase load_case(const std::filesystem::path& file, const std::vector<std:
                        const std::string& from) {
     GivenGrains given;
     if (!from.empty()) given.earlier = earlier_run(from);
-    ResolvedCase result =
-        resolved_case(read_case_entries(file, overrides), file.parent_path(), given);
-    result.name = file.stem().string();
-    result.file = std::filesystem::absolute(file).lexically_normal();
-    result.overrides = overrides;
-    result.from = from;
+    return load(file, overrides, from, given);
+}
+
+ResolvedCase load_poured(const ResolvedCase& planned, const std::filesystem::path& pouring) {
+    GivenGrains given;
+    given.earlier = earlier_run(pouring.string());
+    given.earlier->poured = true;
+    ResolvedCase result = load(planned.file, planned.overrides, pouring.string(), given);
+    result.hash_before_pouring = planned.settings.text("run.hash");
     return result;
 }
 

@@ -34,6 +34,8 @@ struct ResolvedCase {
     std::filesystem::path file;  ///< the arguments of load_case, for run.json
     std::vector<std::string> overrides;
     std::string from;
+    /// Hash of the case before its grains were poured; empty if they were not.
+    std::string hash_before_pouring;
 };
 
 /// Whether all shapes of the case are discs.
@@ -44,6 +46,9 @@ bool all_round(const ResolvedCase& resolved);
 ResolvedCase load_case(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides = {},
                        const std::string& from = "");
+
+/// A poured case with the grains that its pouring has left (job/pour_grains.hpp).
+ResolvedCase load_poured(const ResolvedCase& planned, const std::filesystem::path& pouring);
 
 /// Reads DIR/case.yaml with the grains of DIR/grains/initial.csv: the folder prepared by `turbidite
 /// run`. With overrides the case is another one, which the folder does not have yet.

@@ -10,6 +10,7 @@
 #include "launcher/case/files/file_names.hpp"
 #include "launcher/case/grains/grain_abilities.hpp"
 #include "launcher/case/grains/materials.hpp"
+#include "launcher/case/grains/packing/pouring.hpp"
 #include "launcher/case/walls/space_walls.hpp"
 #include "launcher/case/walls/wall_motion.hpp"
 
@@ -97,7 +98,12 @@ PlacedCase place(const Settings& settings, const CaseEntries& entries,
         return check_population(start.grains, start.source, packing_box(settings),
                                 solid_sides(settings), forms, settings.real("grains.overlap"));
     });
-    check([&] { return check_abilities(start, settings, forms); });
+    check([&] {
+        if (!is_poured(settings)) return check_abilities(start, settings, forms);
+        StartGrains poured = start;
+        take_poured_radii(poured.grains, settings);
+        return check_abilities(poured, settings, forms);
+    });
     check([&] { return check_periods(start.grains, settings, entries); });
     check([&] {
         InnerWalls read = walls_of(settings, entries, start.grains, forms, folder);

@@ -2,11 +2,14 @@
 //
 // turbidite run CASE: validate, prepare the run folder, start the job, report.
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "launcher/case/forecast/disk_cost.hpp"
-#include "launcher/case/grains/packing/pouring.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/folder/shipped_cases.hpp"
@@ -26,18 +29,37 @@ struct RunOptions {
     bool dry_run = false;
 };
 
-/// The case with the grains that had to be poured first.
-ResolvedCase with_poured_grains(ResolvedCase resolved, const RunOptions& options,
-                                const LaunchSite& site) {
-    if (options.dry_run || !options.from.empty() || !is_poured(resolved.settings)) return resolved;
-    return load_case(options.file, options.overrides, poured_grains(resolved, site).string());
+/// What a program and its children write to stdout goes to stderr meanwhile.
+class OnStderr {
+ public:
+    OnStderr() : stdout_(::dup(STDOUT_FILENO)) {
+        std::fflush(stdout);
+        ::dup2(STDERR_FILENO, STDOUT_FILENO);
+    }
+    ~OnStderr() {
+        std::fflush(stdout);
+        ::dup2(stdout_, STDOUT_FILENO);
+        ::close(stdout_);
+    }
+    OnStderr(const OnStderr&) = delete;
+    OnStderr& operator=(const OnStderr&) = delete;
+
+ private:
+    int stdout_;
+};
+
+/// Of a dry run stdout is the line and nothing else: it may go to a shell.
+ResolvedCase resolved_case(const RunOptions& options, const LaunchSite& site) {
+    ResolvedCase planned = load_case(options.file, options.overrides, options.from);
+    std::optional<OnStderr> moved;
+    if (options.dry_run) moved.emplace();
+    return with_poured_grains(std::move(planned), site);
 }
 
 int run(const RunOptions& options) {
     hold_announcements();
     const LaunchSite site = this_site();
-    const ResolvedCase resolved =
-        with_poured_grains(load_case(options.file, options.overrides, options.from), options, site);
+    const ResolvedCase resolved = resolved_case(options, site);
     const auto folder =
         options.order.out.empty() ? std::filesystem::path("runs") : options.order.out;
     if (const std::string lack = lack_of_disk(predicted_disk(resolved), folder); !lack.empty())
@@ -71,8 +93,9 @@ CommandAction declare_run(CLI::App& app) {
                    "run folder, new or empty; default runs/<case>-<date>-<time>")
         ->type_name("DIR");
     app.add_flag("--force", options->order.force, "overwrite an existing run in --out");
-    app.add_flag("--dry-run", options->dry_run,
-                 "prepare everything and print the mpirun line instead of starting it");
+    app.add_flag(
+        "--dry-run", options->dry_run,
+        "prepare everything, poured grains too, and print the mpirun line instead of starting it");
     return [options] {
         options->file = case_named(options->file, find_programs());
         return run(*options);

@@ -11,11 +11,13 @@
 
 #include "launcher/case/forecast/disk_cost.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
+#include "launcher/case/grains/packing/pouring.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/commands/report_script.hpp"
 #include "launcher/job/folder/set_aside.hpp"
 #include "launcher/job/folder/shipped_cases.hpp"
 #include "launcher/job/play_run.hpp"
+#include "launcher/job/pour_grains.hpp"
 #include "launcher/job/resume_run.hpp"
 #include "launcher/job/terminal.hpp"
 #include "launcher/study/other_defaults.hpp"
@@ -109,7 +111,8 @@ bool asked_to_stop(ExitCode code) {
 
 /// What was there stays, under another name, unless nothing has been played in it.
 PreparedRun prepare_afresh(const PlannedRun& run, const fs::path& folder, const LaunchSite& site) {
-    const ResolvedCase resolved = run.resolve();
+    // Found poured, unless the run was to go on and cannot.
+    const ResolvedCase resolved = with_poured_grains(run.resolve(), site);
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
     if (has_windows(folder))
         tell_on_stderr(fmt::format("{}: the run that was there is now {}", run.path(),
@@ -135,16 +138,30 @@ PreparedRun prepare_to_play(const PlannedRun& run, const fs::path& out, const La
 }
 
 /// Empty if it cannot be played now, which then was said.
-std::optional<PreparedRun> prepared_to_play(const PlannedRun& run, const fs::path& out,
-                                            const LaunchSite& site) {
+template <class Prepare>
+auto unless_it_waits(const PlannedRun& run, const Prepare& prepare)
+    -> std::optional<decltype(prepare())> {
     try {
-        return prepare_to_play(run, out, site);
+        return prepare();
     } catch (const Failure& failure) {
-        if (failure.code() == ExitCode::bad_input) throw;
+        if (failure.code() == ExitCode::bad_input || asked_to_stop(failure.code())) throw;
         tell_on_stderr(fmt::format("{}: it stays as it is, and the next call tries again: {}",
                                    run.path(), failure.what()));
         return std::nullopt;
     }
+}
+
+/// Holds `chosen` except while grains are poured: null if another takes the run meanwhile.
+std::optional<PreparedRun> prepare_in_turn(const PlannedRun& run, const fs::path& out,
+                                           const LaunchSite& site, const StudyTurns& turns,
+                                           std::shared_ptr<RunLock>& chosen) {
+    if (!may_go_on(run, out) && is_poured(run.resolve().settings)) {
+        chosen.reset();
+        with_poured_grains(run.resolve(), site);
+        chosen = turns.lock();
+        if (!turns.is_free(run)) return std::nullopt;
+    }
+    return prepare_to_play(run, out, site);
 }
 
 void announce(const PlannedRun& run, const std::vector<PlannedRun>& plan, const StudyTurns& turns,
@@ -170,13 +187,12 @@ ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan, c
         if (run == nullptr) return result;
         announce(*run, plan, turns, pace);
         const auto start = Clock::now();
-        const std::optional<PreparedRun> prepared = prepared_to_play(*run, out, site);
+        const auto prepared =
+            unless_it_waits(*run, [&] { return prepare_in_turn(*run, out, site, turns, chosen); });
         chosen.reset();
-        if (!prepared) {
-            if (result == ExitCode::done) result = ExitCode::participant_failed;
-            continue;
-        }
-        const JobOutcome outcome = play(*prepared, site.programs);
+        if (!prepared && result == ExitCode::done) result = ExitCode::participant_failed;
+        if (!prepared || !*prepared) continue;
+        const JobOutcome outcome = play(**prepared, site.programs);
         chosen = turns.lock();
         write_study_record(study, plan, out);
         if (asked_to_stop(outcome.code)) return outcome.code;

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "coupler/protocol/files/whole_file.hpp"
+#include "launcher/case/grains/packing/pouring.hpp"
 #include "launcher/commands/report_script.hpp"
 #include "launcher/job/job.hpp"
 #include "launcher/job/overdue.hpp"
@@ -54,6 +55,10 @@ PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const L
 }
 
 PreparedRun fill(const ResolvedCase& resolved, const OwnFolder& own, const LaunchSite& site) {
+    // The grains of such a case only take the place of poured ones.
+    if (is_poured(resolved.settings))
+        throw Failure(ExitCode::bad_input,
+                      own.folder.root.string() + ": its grains are not poured");
     const auto line = launch_arguments(resolved.settings, own.folder, site);
     prepare_run(resolved, own.folder, line);
     add_view(own.folder, site.programs);

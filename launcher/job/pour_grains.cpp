@@ -8,8 +8,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
@@ -17,6 +19,7 @@
 #include "launcher/case/files/run_folder.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
 #include "launcher/case/grains/packing/pouring.hpp"
+#include "launcher/job/folder/run_lock.hpp"
 #include "launcher/job/resume_run.hpp"
 #include "launcher/job/terminal.hpp"
 
@@ -65,6 +68,37 @@ double next_end(const fs::path& history) {
     return piece * (std::floor(time->second / piece + 1e-9) + 1.0);
 }
 
+/// Of a resolved case the groups that a dry packing depends on; its head has those of the grains.
+std::string packing_text(const std::string& yaml) {
+    const auto counts = [](const std::string& line) {
+        for (const char* group : {"fluid:", "coupling:", "output:", "checkpoint:", "limits:"})
+            if (line.rfind(group, 0) == 0) return false;
+        return true;
+    };
+    std::istringstream lines(yaml);
+    std::string text;
+    bool kept = true;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.empty() && line[0] != ' ') kept = counts(line);
+        if (kept) text += line + "\n";
+    }
+    return text;
+}
+
+/// Waits until no other process pours these grains.
+std::shared_ptr<RunLock> own_turn(const fs::path& pouring) {
+    // Not the lock of the run folder, which is free between two pieces.
+    const fs::path folder = pouring.string() + ".turn";
+    fs::create_directories(folder);
+    bool told = false;
+    for (;;) {
+        if (auto lock = RunLock::take(folder, std::chrono::seconds(1))) return lock;
+        if (!std::exchange(told, true))
+            tell_on_stderr("another run pours the same grains; this one waits for them, in " +
+                           pouring.string());
+    }
+}
+
 /// No report is made of it.
 class WithoutReport {
  public:
@@ -85,6 +119,12 @@ class WithoutReport {
     std::optional<std::string> before_;
 };
 
+[[noreturn]] void end_early(const RunFolder& folder, ExitCode code, const std::string& why) {
+    throw Failure(code, fmt::format("the grains are not poured: {}\n  The pouring is in {}; the "
+                                    "same command goes on with it. The run itself was not started.",
+                                    why, folder.root.string()));
+}
+
 JobOutcome play_piece(const ResolvedCase& pouring, const RunFolder& folder,
                       const LaunchSite& site) {
     if (!fs::exists(folder.history()))
@@ -92,22 +132,19 @@ JobOutcome play_piece(const ResolvedCase& pouring, const RunFolder& folder,
     const auto resumed =
         prepare_resumption(folder.root, {fmt::format("time.end={:g}", next_end(folder.history()))},
                            site, tell_on_stderr);
-    if (!resumed) return {};
+    // It would be asked for ever to go on to an end that it has reached.
+    if (!resumed) end_early(folder, ExitCode::participant_failed, "it does not go on");
     return play(resumed->run, site.programs);
-}
-
-[[noreturn]] void end_early(const RunFolder& folder, ExitCode code, const std::string& why) {
-    throw Failure(code, fmt::format("the grains are not poured: {}\n  The pouring is in {}; the "
-                                    "same command goes on with it. The run itself was not started.",
-                                    why, folder.root.string()));
 }
 
 }  // namespace
 
 bool is_at_rest(const fs::path& history, double tolerance) {
     std::map<std::string, double> row = last_row(history);
-    // Grains that begin at rest are not at rest: at least one piece is played.
-    if (row.empty() || row["time"] < piece * (1.0 - 1e-9)) return false;
+    // Grains that begin at rest are not at rest: at least one piece is played. What it leaves when
+    // it is interrupted depends on when.
+    const double pieces = row.empty() ? 0.0 : row["time"] / piece;
+    if (pieces < 0.5 || std::abs(pieces - std::round(pieces)) > 1e-9) return false;
     // Of a bed of even density: its centre is at half its height.
     const double height = 2.0 * row["mean_position_y"];
     return row["kinetic_energy"] < energy_at_rest(height, tolerance);
@@ -117,8 +154,9 @@ fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
     std::vector<std::string> values = resolved.overrides;
     for (std::string& change : pouring_changes(resolved)) values.push_back(std::move(change));
     ResolvedCase pouring = load_case(resolved.file, values);
-    // By what the pouring depends on: another run of the same packing finds it.
-    const RunFolder folder{fs::absolute(cache_folder() / case_hash(pouring.yaml))};
+    // By what the packing depends on: another run of the same packing finds it.
+    const RunFolder folder{fs::absolute(cache_folder() / case_hash(packing_text(pouring.yaml)))};
+    const std::shared_ptr<RunLock> turn = own_turn(folder.root);
     const double tolerance = pouring.settings.real("contact.tolerance");
     if (is_at_rest(folder.history(), tolerance)) {
         fmt::print("{} grains were poured before, in {}\n", pouring.population.size(),
@@ -133,7 +171,6 @@ fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
         in_space(pouring.settings) ? best_grains_ranks(pouring.population.size()) : 1;
     values.push_back(fmt::format("grains.ranks={}", ranks));
     pouring = load_case(resolved.file, values);
-    fs::create_directories(folder.root.parent_path());
     const WithoutReport without;
     while (!is_at_rest(folder.history(), tolerance)) {
         if (next_end(folder.history()) > longest)
@@ -144,6 +181,11 @@ fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
             end_early(folder, outcome.code, "the dry run ended early");
     }
     return folder.root;
+}
+
+ResolvedCase with_poured_grains(ResolvedCase resolved, const LaunchSite& site) {
+    if (!is_poured(resolved.settings)) return resolved;
+    return load_poured(resolved, poured_grains(resolved, site));
 }
 
 }  // namespace turbidite

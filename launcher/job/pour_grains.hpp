@@ -14,9 +14,12 @@ namespace turbidite {
 /// well, or grains are not at rest after 200 t_c.
 std::filesystem::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site);
 
-/// Whether the last row of a history.csv, after at least 10 t_c, has a mean kinetic energy that
-/// grains at rest may keep [m u_c2]: 1e-4, and in a high packing (t h)^2/2, with its height h [D]
-/// and contacts solved to the tolerance t [u_c].
+/// The case with its grains poured, where they are to be; any other case as it is. Throws as above.
+ResolvedCase with_poured_grains(ResolvedCase resolved, const LaunchSite& site);
+
+/// Whether the last row of a history.csv is that of the end of a piece of 10 t_c, and has a mean
+/// kinetic energy that grains at rest may keep [m u_c2]: 1e-4, and in a high packing (t h)^2/2,
+/// with its height h [D] and contacts solved to the tolerance t [u_c].
 bool is_at_rest(const std::filesystem::path& history, double tolerance);
 
 }  // namespace turbidite

@@ -127,6 +127,7 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved, const RunFolde
             {"from", resolved.from},
             {"out", folder.root.string()},
             {"case_hash", resolved.settings.text("run.hash")},
+            {"hash_before_pouring", resolved.hash_before_pouring},
             {"versions", {{"turbidite", version()}, {"commit", commit()}}},
             {"prepared", local_time("%Y-%m-%dT%H:%M:%S%z")},
             {"scales", scales.kind},

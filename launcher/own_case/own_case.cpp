@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <set>
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/files/whole_file.hpp"
@@ -25,15 +26,32 @@ void write(const fs::path& file, const std::string& text) {
                       fmt::format("turbidite: {} cannot be written", file.string()));
 }
 
-/// Values of the case that are files beside it, such as grains.file.
-std::vector<fs::path> files_named_by(const fs::path& shipped) {
+/// Values that are files in one of the folders, such as grains.file.
+std::set<fs::path> files_named_by(const fs::path& file, const std::set<fs::path>& folders) {
+    std::set<fs::path> found;
+    for (const CaseEntry& entry : read_case_entries(file, {}).entries)
+        for (const fs::path& folder : folders) {
+            const fs::path name = entry.value;
+            std::error_code ignored;
+            if (name.is_relative() && fs::is_regular_file(folder / name, ignored))
+                found.insert((folder / name).lexically_normal());
+        }
+    return found;
+}
+
+/// The files of a case; of a study its cases, and theirs. Relative to the folder of the file.
+std::vector<fs::path> files_beside(const fs::path& shipped) {
+    const fs::path home = shipped.parent_path();
+    std::set<fs::path> files = files_named_by(shipped, {home}), folders{home};
+    for (const fs::path& file : std::set<fs::path>(files))
+        if (file.extension() == ".yaml") {
+            folders.insert(file.parent_path());
+            files.merge(files_named_by(file, {file.parent_path()}));
+        }
+    // A study may give its cases other files, which are in their folders.
+    files.merge(files_named_by(shipped, folders));
     std::vector<fs::path> names;
-    for (const CaseEntry& entry : read_case_entries(shipped, {}).entries) {
-        const fs::path name = entry.value;
-        std::error_code ignored;
-        if (name.is_relative() && fs::is_regular_file(shipped.parent_path() / name, ignored))
-            names.push_back(name);
-    }
+    for (const fs::path& file : files) names.push_back(file.lexically_relative(home));
     return names;
 }
 
@@ -48,7 +66,7 @@ void require_free(const fs::path& file) {
 
 OwnCase write_own_case(const fs::path& shipped, const fs::path& file) {
     OwnCase own{file, {}};
-    const std::vector<fs::path> names = files_named_by(shipped);
+    const std::vector<fs::path> names = files_beside(shipped);
     require_free(file);
     for (const fs::path& name : names) require_free(file.parent_path() / name);
     const std::string head = fmt::format(

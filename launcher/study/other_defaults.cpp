@@ -11,6 +11,7 @@
 #include "coupler/protocol/files/whole_file.hpp"
 #include "launcher/case/files/case_entries.hpp"
 #include "launcher/case/files/run_folder.hpp"
+#include "launcher/job/folder/run_json.hpp"
 
 namespace turbidite {
 namespace {
@@ -29,11 +30,19 @@ std::optional<Values> values_of(const std::string& resolved) {
 
 /// Of the grains, the walls and the script, which the head of a resolved case names.
 std::set<std::string> fingerprints(const std::string& resolved) {
-    static const std::regex one("fingerprint ([0-9a-f]{16})");
+    static const std::regex one("# .*, fingerprint [0-9a-f]{16}");
     std::set<std::string> found;
     for (std::sregex_iterator at(resolved.begin(), resolved.end(), one), end; at != end; ++at)
-        found.insert((*at)[1]);
+        found.insert(at->str());
     return found;
+}
+
+bool is_of_grains(const std::string& fingerprint) {
+    return fingerprint.find(" grains, ") != std::string::npos;
+}
+
+bool were_poured(const std::filesystem::path& folder) {
+    return !read_run_json(RunFolder{folder}.record()).value("hash_before_pouring", "").empty();
 }
 
 std::string value_in(const Values& values, const std::string& key) {
@@ -53,8 +62,15 @@ std::set<std::string> keys_of(const Values& a, const Values& b) {
 std::optional<std::vector<std::string>> other_defaults(const PlannedRun& run,
                                                        const std::filesystem::path& folder) {
     const std::string text = read_whole(RunFolder{folder}.resolved_case());
-    const auto then = values_of(text), now = values_of(run.yaml);
-    if (!then || !now || fingerprints(text) != fingerprints(run.yaml)) return std::nullopt;
+    auto then = values_of(text);
+    const auto now = values_of(run.yaml);
+    std::set<std::string> files_then = fingerprints(text), files_now = fingerprints(run.yaml);
+    if (were_poured(folder)) {
+        // The plan does not know the packing, but all that it depends on.
+        std::erase_if(files_then, is_of_grains), std::erase_if(files_now, is_of_grains);
+        if (then) then->erase("grains.file");
+    }
+    if (!then || !now || files_then != files_now) return std::nullopt;
     std::vector<std::string> changes;
     for (const std::string& key : keys_of(*then, *now)) {
         const std::string before = value_in(*then, key), after = value_in(*now, key);

@@ -52,6 +52,12 @@ bool was_cut_off(const Record& record) {
            *end == ExitCode::done;
 }
 
+/// Of the planned case, or of that with its grains poured.
+bool is_of(const PlannedRun& run, const Record& record) {
+    return record.value("case_hash", "") == run.hash ||
+           record.value("hash_before_pouring", "") == run.hash;
+}
+
 bool has_checkpoint(const std::filesystem::path& folder) {
     return !CheckpointSets(folder).names().empty();
 }
@@ -61,7 +67,7 @@ bool has_checkpoint(const std::filesystem::path& folder) {
 RunState state_of(const PlannedRun& run, const std::filesystem::path& out) {
     const std::filesystem::path folder = out / run.path();
     const Record record = read_run_json(RunFolder{folder}.record());
-    const bool same = record.value("case_hash", "") == run.hash;
+    const bool same = is_of(run, record);
     if (!same && (record.empty() || !other_defaults(run, folder))) return RunState::missing;
     if (is_whole(record)) return same ? RunState::done : RunState::kept;
     if (was_cut_off(record) && has_checkpoint(folder)) return RunState::begun;

@@ -34,11 +34,18 @@ std::shared_ptr<RunLock> StudyTurns::lock() const {
 }
 
 bool StudyTurns::is_to_come(const PlannedRun& run) const {
-    if (given_.count(&run) > 0) return false;
+    return given_.count(&run) == 0 && is_left(run);
+}
+
+bool StudyTurns::is_left(const PlannedRun& run) const {
     const RunState state = state_of(run, out_);
     return state == RunState::missing || state == RunState::begun ||
            (state == RunState::kept && again_) ||
            (state == RunState::failed && had_failed_.count(&run) > 0);
+}
+
+bool StudyTurns::is_free(const PlannedRun& run) const {
+    return is_left(run) && !RunLock::is_held(out_ / run.path());
 }
 
 std::vector<const PlannedRun*> StudyTurns::to_come() const {
@@ -50,7 +57,7 @@ std::vector<const PlannedRun*> StudyTurns::to_come() const {
 
 const PlannedRun* StudyTurns::free_run() const {
     for (const PlannedRun& run : *plan_)
-        if (is_to_come(run) && !RunLock::is_held(out_ / run.path())) return &run;
+        if (given_.count(&run) == 0 && is_free(run)) return &run;
     return nullptr;
 }
 

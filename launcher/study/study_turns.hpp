@@ -29,6 +29,9 @@ class StudyTurns {
     /// had failed is played again, one that fails meanwhile is not. Null if there is none.
     const PlannedRun* next();
 
+    /// Whether it is still to be played and nobody plays it, given or not.
+    bool is_free(const PlannedRun& run) const;
+
     /// Those that are not done and were not given before, also if others play them now.
     std::vector<const PlannedRun*> to_come() const;
 
@@ -37,6 +40,7 @@ class StudyTurns {
 
  private:
     bool is_to_come(const PlannedRun& run) const;
+    bool is_left(const PlannedRun& run) const;
     const PlannedRun* free_run() const;
 
     const std::vector<PlannedRun>* plan_;

@@ -135,6 +135,12 @@ TEST_F(New, TakesAlongTheFilesThatTheCaseNames) {
     const Answer study = shell(TURBIDITE_PROGRAM " new my-study --like grain-codes");
     EXPECT_EQ(study.code, 0) << study.err;
     EXPECT_EQ(shell(TURBIDITE_PROGRAM " check my-study.yaml").code, 0);
+    // Its cases have files of their own, and it gives them others.
+    const Answer deep = shell(TURBIDITE_PROGRAM " new deep/mine --like paper");
+    EXPECT_EQ(deep.code, 0) << deep.err;
+    EXPECT_SAYS(deep.out, "deep/validation/packed-lattice-0.85.csv\n");
+    const Answer checked = shell(TURBIDITE_PROGRAM " check deep/mine.yaml");
+    EXPECT_EQ(checked.code, 0) << checked.err;
 }
 
 TEST_F(New, KnowsTheCasesOfValidationToo) {

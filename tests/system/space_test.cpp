@@ -147,8 +147,40 @@ TEST_F(Space, PouredGrainsAreAtRestWhenTheRunBegins) {
     const Answer second = turbidite(poured + " --out second");
     ::unsetenv("XDG_CACHE_HOME");
     EXPECT_SAYS(second.out, "150 grains were poured before");
+    // Its line is to be played by a shell, and plays the same packing.
+    ::setenv("XDG_CACHE_HOME", scratch.path().c_str(), 1);
+    const Answer line = turbidite(poured + " --dry-run --out third");
+    ::unsetenv("XDG_CACHE_HOME");
+    EXPECT_EQ(line.out.find("poured"), std::string::npos) << line.out;
+    EXPECT_SAYS(line.err, "150 grains were poured before");
+    EXPECT_EQ(text(scratch.path() / "third/grains/initial.csv"),
+              text(scratch.path() / "first/grains/initial.csv"));
     EXPECT_EQ(lines_without_wall_times(text(scratch.path() / "second/history.csv")),
               lines_without_wall_times(text(scratch.path() / "first/history.csv")));
+}
+
+// A study pours them too, and knows the run again by its plan.
+TEST_F(Space, PouredGrainsOfAStudyAreAtRestWhenItsRunsBegin) {
+    ::setenv("XDG_CACHE_HOME", scratch.path().c_str(), 1);
+    scratch.write("pours.yaml",
+                  "out: s\nparts:\n  a:\n    case: case.yaml\n"
+                  "    set: {grains.generator: poured, grains.jitter: 0, grains.count: 150, "
+                  "time.end: 0.5}\n"
+                  "    sweep: {grains.pour_friction: [0, 0.8]}\n");
+    const Answer first = turbidite("study pours.yaml");
+    ASSERT_EQ(first.code, 0) << first.err;
+    const Answer second = turbidite("study pours.yaml");
+    ::unsetenv("XDG_CACHE_HOME");
+    EXPECT_SAYS(second.out, "2 runs, 2 of them done");
+    EXPECT_EQ(second.out.find("Pouring"), std::string::npos) << second.out;
+    const Columns dense = history("s/a/pour_friction-0"), loose = history("s/a/pour_friction-0.8");
+    for (const Columns* run : {&dense, &loose}) {
+        EXPECT_EQ(run->at("grains").front(), 150.0);
+        EXPECT_LT(run->at("kinetic_energy").front(), 1e-4);
+        EXPECT_GT(run->at("coordination").back(), 1.0);
+    }
+    // Where grains slip they come to rest nearer to the floor; stand-ins are on one lattice.
+    EXPECT_LT(dense.at("mean_position_y").front(), loose.at("mean_position_y").front() - 0.05);
 }
 
 TEST_F(Space, CheckForecastsAndRefusesInWords) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -106,10 +107,19 @@ bool is_leaving(const PlacedGrain& grain, const PackingBox& box, const Settings&
     });
 }
 
+/// From sqrt(g D), of a pouring, to u_c; spins from sqrt(g/D) to 1/t_c have the same factor.
+void convert_rates(Packing& grains, const Scales& scales) {
+    const double factor = std::sqrt(scales.gravity * scales.diameter) / scales.velocity;
+    for (PlacedGrain& grain : grains)
+        for (double* rate : {&grain.vx, &grain.vy, &grain.vz, &grain.wx, &grain.wy, &grain.spin})
+            *rate *= factor;
+}
+
 StartGrains grains_of(const EarlierStart& start, const Settings& settings,
                       const GrainForms& forms) {
     EarlierGrains read =
         read_earlier_grains(start.run, start.earlier, forms, material_names(settings));
+    if (start.poured) convert_rates(read.grains, make_scales(settings));
     std::vector<std::string> notes{
         fmt::format("grains taken from {} at {:.6g} t_c", read.source, read.time)};
     const PackingBox box = packing_box(settings);

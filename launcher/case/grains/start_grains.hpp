@@ -21,6 +21,7 @@ namespace turbidite {
 struct EarlierStart {
     EarlierRun run;
     EarlierCase earlier;
+    bool poured = false;  ///< the run has poured them: its u_c is sqrt(g D) (packing/pouring.hpp)
 };
 
 /// Grains that exist already: those of a run folder, or of another run.

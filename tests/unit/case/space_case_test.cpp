@@ -307,6 +307,71 @@ TEST_F(SpaceCase, PouredGrainsHaveStandInsAndARunOfTheirOwn) {
     EXPECT_SAYS(refusal("", full), "poured packings fill 0.66 at most");
 }
 
+std::vector<std::string> with(std::vector<std::string> words,
+                              const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+// In free fall grains have little energy in units of a large u_c, and windows of a small one are
+// long.
+TEST_F(SpaceCase, GrainsArePouredInTheScalesOfGravity) {
+    const std::vector<std::string> fast = {
+        "grains.generator=poured",   "scales.kind=physical",
+        "scales.diameter=1e-4",      "scales.gravity=10",
+        "scales.fluid_density=1000", "scales.viscosity=1e-6",
+        "scales.velocity=1",         "time.step=0.3",
+        "contact.restitution=0.5",   "contact.restitution_speed=0.01"};
+    const ResolvedCase resolved = load("", fast);
+    const ResolvedCase pouring = load("", with(fast, pouring_changes(resolved)));
+    EXPECT_EQ(pouring.scales.kind, "avalanche");
+    EXPECT_EQ(pouring.settings.real("time.step"), 0.01);
+    // 0.01 u_c = 0.01 m/s, and sqrt(g D) = 0.0316 m/s
+    EXPECT_NEAR(pouring.settings.real("contact.restitution_speed"), 0.316228, 1e-6);
+    const ResolvedCase plain = load("", {"grains.generator=poured", "contact.restitution=0.5",
+                                         "contact.restitution_speed=0.316227766016838"});
+    EXPECT_EQ(plain.packing.size(), pouring.packing.size());
+}
+
+TEST_F(SpaceCase, OneFrictionPoursAllContacts) {
+    const std::vector<std::string> given = {"grains.generator=poured",
+                                            "grains.pour_friction=0",
+                                            "contact.law=static-dynamic",
+                                            "contact.friction=0.3",
+                                            "contact.static_friction=1",
+                                            "contact.materials.steel.friction=0.2",
+                                            "domain.material=steel",
+                                            "contact.pairs.steel-default.friction=0.4",
+                                            "contact.materials.steel.static_friction=0.6"};
+    const Settings s = load("", with(given, pouring_changes(load("", given)))).settings;
+    EXPECT_EQ(s.text("contact.law"), "coulomb");
+    for (const char* key : {"contact.friction", "contact.materials.steel.friction",
+                            "contact.pairs.steel-default.friction"})
+        EXPECT_EQ(s.real(key), 0.0) << key;
+    EXPECT_FALSE(s.has("contact.static_friction"));
+    EXPECT_FALSE(s.has("contact.materials.steel.static_friction"));
+}
+
+// Spheres of 6 cells fit, whatever the size of what stands in for them.
+TEST_F(SpaceCase, StandInsAreNotTakenForTooSmall) {
+    const std::vector<std::string> tight = {
+        "grains.generator=poured", "grains.count=118",  "grains.region=[3.5, 10, 3.5]",
+        "fluid.enabled=true",      "fluid.reynolds=10", "fluid.cells_per_diameter=6",
+        "coupling.scheme=joint"};
+    const ResolvedCase resolved = load("", tight);
+    EXPECT_LT(resolved.packing.front().radius, 0.5);
+    EXPECT_SAYS(refusal("", with(tight, {"fluid.cells_per_diameter=5"})), "cells");
+}
+
+TEST_F(SpaceCase, ProbesOutsideTheGroundDoNotPreventPouring) {
+    const std::vector<std::string> wet = {"grains.generator=poured",  "grains.region=[6, 9, 6]",
+                                          "fluid.enabled=true",       "fluid.reynolds=10",
+                                          "coupling.scheme=joint",    "fluid.cells_per_diameter=8",
+                                          "output.probes=[11, 1, 1]", "output.slices=x = 11"};
+    const ResolvedCase resolved = load("", wet);
+    EXPECT_EQ(refusal("", with(wet, pouring_changes(resolved))), "");
+}
+
 // Into a shaft that is higher than the equal rows of the fluid's box.
 TEST_F(SpaceCase, GrainsOfAFluidArePouredWithoutIt) {
     std::vector<std::string> wet = {"grains.generator=poured",    "grains.region=[6, 9, 6]",

@@ -363,7 +363,8 @@ class OtherVersion : public StudyTest {
         run = plan("{case: column.yaml, sweep: {random.seed: [1]}}").at(0);
     }
 
-    void leave(const std::vector<std::pair<std::string, std::string>>& changes) {
+    void leave(const std::vector<std::pair<std::string, std::string>>& changes,
+               const std::string& before_pouring = "") {
         std::string text = run.yaml;
         for (const auto& [from, to] : changes) {
             const auto at = text.find(from);
@@ -371,12 +372,14 @@ class OtherVersion : public StudyTest {
             text.replace(at, from.size(), to);
         }
         scratch.write(run.path() + "/case.yaml", text);
-        scratch.write(run.path() + "/run.json", nlohmann::json{{"case_hash", "of that version"},
-                                                               {"status", "done"},
-                                                               {"exit_code", 0},
-                                                               {"windows", 100},
-                                                               {"windows_done", 100}}
-                                                    .dump());
+        scratch.write(run.path() + "/run.json",
+                      nlohmann::json{{"case_hash", "of that version"},
+                                     {"hash_before_pouring", before_pouring},
+                                     {"status", "done"},
+                                     {"exit_code", 0},
+                                     {"windows", 100},
+                                     {"windows_done", 100}}
+                          .dump());
     }
 
     RunState state() const { return state_of(run, scratch.path()); }
@@ -393,6 +396,20 @@ TEST_F(OtherVersion, RunsWithOtherDefaultsAreKept) {
     leave({{"  rolling_friction: 0", "  rolling_friction: 0.125"}});
     EXPECT_EQ(state(), RunState::kept);
     EXPECT_SAYS(changes(), "contact.rolling_friction: 0.125, now 0 by default");
+}
+
+// The plan knows the case, not the packing that its pouring leaves.
+TEST_F(OtherVersion, PouredRunsAreKnownByTheirPlan) {
+    const std::string fingerprint = run.yaml.substr(run.yaml.find("fingerprint"), 28);
+    const std::pair<std::string, std::string> poured{fingerprint, "fingerprint 0123456789abcdef"};
+    leave({poured}, run.hash);
+    EXPECT_EQ(state(), RunState::done);
+    leave({poured, {"  rolling_friction: 0", "  rolling_friction: 0.125"}}, "of that version");
+    EXPECT_EQ(state(), RunState::kept);
+    leave({poured, {"  friction: 0.3", "  friction: 0.4"}}, "of that version");
+    EXPECT_EQ(state(), RunState::missing);
+    leave({poured});
+    EXPECT_EQ(state(), RunState::missing);
 }
 
 TEST_F(OtherVersion, RunsWithMoreOrFewerKeysAreKept) {

@@ -88,6 +88,46 @@ std::vector<std::string> sides(const Settings& settings, const Ground& ground) {
     return changes;
 }
 
+void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+}
+
+/// grains.pour_friction, if given, of all contacts: one law, one coefficient.
+std::vector<std::string> own_friction(const Settings& settings) {
+    if (!settings.has("grains.pour_friction")) return {};
+    const std::string value = settings.text("grains.pour_friction");
+    std::vector<std::string> changes{"contact.law=coulomb", "contact.friction=" + value};
+    const auto ends = [](const std::string& key, const std::string& name) {
+        return key.size() > name.size() &&
+               key.compare(key.size() - name.size(), name.size(), name) == 0;
+    };
+    for (const auto& [key, old] : settings.entries()) {
+        if (key.rfind("contact.", 0) != 0) continue;
+        if (ends(key, ".static_friction")) changes.push_back(key + "=~");
+        if (ends(key, ".friction") && key != "contact.friction")
+            changes.push_back(key + "=" + value);
+    }
+    return changes;
+}
+
+/// Falling and coming to rest have the scales of gravity, whatever those of the run are: with
+/// another u_c grains in free fall would count as at rest, or windows would be too long.
+std::vector<std::string> own_scales(const ResolvedCase& resolved) {
+    const Settings& settings = resolved.settings;
+    const Scales& scales = resolved.scales;
+    std::vector<std::string> changes{"scales.kind=avalanche"};
+    for (const auto& [key, old] : settings.entries())
+        if (key.rfind("scales.", 0) == 0 && key != "scales.kind" && key != "scales.compacity")
+            changes.push_back(key + "=~");
+    // From u_c to sqrt(g D)
+    const double factor = scales.velocity / std::sqrt(scales.gravity * scales.diameter);
+    for (const char* speed : {"contact.restitution_speed", "contact.recovery_speed"})
+        if (settings.has(speed))
+            changes.push_back(
+                fmt::format("{}={}", speed, real_text(factor * settings.real(speed))));
+    return changes;
+}
+
 }  // namespace
 
 bool is_poured(const Settings& settings) {
@@ -114,12 +154,20 @@ std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
     changes.push_back("grains.ranks=1");
     changes.push_back("grains.script=~");
     if (settings.has("grains.extra_file")) changes.push_back("grains.extra_file=~");
-    if (settings.has("grains.pour_friction"))
-        changes.push_back("contact.friction=" + settings.text("grains.pour_friction"));
-    for (const char* plain : {"output.interval=1", "checkpoint.interval=5", "checkpoint.keep=1",
-                              "coupling.recording=none", "time.end=10"})
+    append(changes, own_friction(settings));
+    append(changes, own_scales(resolved));
+    for (const char* plain : {"time.step=0.01", "time.end=10", "output.interval=1",
+                              "output.probes=~", "output.slices=none", "checkpoint.interval=5",
+                              "checkpoint.keep=1", "coupling.recording=none"})
         changes.emplace_back(plain);
     return changes;
+}
+
+void take_poured_radii(Packing& stand_ins, const Settings& settings) {
+    const std::vector<double> radii = radii_of(settings);
+    // There are none where they were refused.
+    const std::size_t count = std::min(radii.size(), stand_ins.size());
+    for (std::size_t i = 0; i < count; ++i) stand_ins[i].radius = radii[i];
 }
 
 PackingResult poured_stand_in(const PackingRequest& request) {

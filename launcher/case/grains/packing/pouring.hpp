@@ -21,6 +21,10 @@ bool is_poured(const Settings& settings);
 /// What the case of the pouring run changes in a poured case, as arguments of --set.
 std::vector<std::string> pouring_changes(const ResolvedCase& resolved);
 
+/// Gives stand-ins (below) the radii of the grains that will be poured; more grains may follow
+/// them.
+void take_poured_radii(Packing& stand_ins, const Settings& settings);
+
 /// Grains in the place of those that are not yet poured, for checks and forecasts: the lowest sites
 /// of an fcc lattice in the region.
 PackingResult poured_stand_in(const PackingRequest& request);
