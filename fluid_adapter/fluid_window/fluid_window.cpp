@@ -232,7 +232,11 @@ void FluidWindow::check_finite(bool finite, const char* steps) const {
 
 void FluidWindow::check_rows(const std::vector<GrainState>& grains) const {
     if (std::isinf(highest_grain_)) return;
-    const auto top = [](const GrainState& grain) { return grain.position[1] + grain.radius; };
+    // Of the cells that it covers, too
+    const auto top = [this](const GrainState& grain) {
+        const double seen = run_.hydrodynamic_radius * grain.radius + run_.surface_shift;
+        return grain.position[1] + std::max(grain.radius, seen);
+    };
     const auto highest =
         std::max_element(grains.begin(), grains.end(),
                          [&](const GrainState& a, const GrainState& b) { return top(a) < top(b); });

@@ -10,6 +10,7 @@
 #include "coupler/rigid/impulse.hpp"
 #include "coupler/rigid/rigid_motion.hpp"
 #include "coupler/shapes/shape.hpp"
+#include "fluid_adapter/multiplier/fluid_beyond.hpp"
 
 namespace turbidite {
 
@@ -36,14 +37,16 @@ struct ImmersedGrain {
     /// rho_f (V(R) - V(R_h)) a dt: a body force a on the fluid acts on all cells of V(R_h), the
     /// mean pressure gradient that it stands for on V(R). None where the motion is prescribed.
     Vec3 driving_impulse{};
+    FluidBeyond beyond{};  ///< of a grain that leaves; moves as contact_motion
 
-    /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h, and the
-    /// driving impulse. J_h is already contained in U^{n+4/5} and is subtracted, since the
-    /// multipliers include it. Finite also where cM <= 0.
+    /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h, the driving
+    /// impulse, and the momentum of the fluid beyond a free side. J_h is already contained in
+    /// U^{n+4/5} and is subtracted, since the multipliers include it. Finite also where cM <= 0.
     Impulse momentum() const {
         const Impulse own{effective_mass * contact_motion.velocity,
                           effective_inertia * contact_motion.spin};
-        return own + given_impulse + Impulse{driving_impulse, {}} - announced_impulse;
+        return own + beyond.momentum(contact_motion) + given_impulse +
+               Impulse{driving_impulse, {}} - announced_impulse;
     }
 };
 

@@ -77,6 +77,7 @@ ImmersedGrain ImmersedStep::immersed(const GrainState& state) const {
     grain.effective_inertia = body.effective_inertia(2, 2);
     grain.contact_motion = twist_of(state);
     grain.prescribed = state.prescribed;
+    if (!grain.prescribed) grain.beyond = fluid_beyond(field_.grid(), grain, body.displaced_mass);
     return grain;
 }
 
@@ -238,8 +239,11 @@ std::vector<Kick> ImmersedStep::kicks() const {
         kick.angular_velocity = motion.spin;
         // The driving impulse is in the momentum of step 5, so the balance of the grain needs it
         // here. The fluid has not lost it: impulse_to_grains is without.
-        kick.multiplier_impulse = impulse.linear + grains_[g].driving_impulse;
-        kick.multiplier_angular_impulse = impulse.moment;
+        // Nor has it what the fluid beyond a free side loses.
+        const Impulse beyond = grains_[g].beyond.momentum(grains_[g].contact_motion) -
+                               grains_[g].beyond.momentum(motion);
+        kick.multiplier_impulse = impulse.linear + beyond.linear + grains_[g].driving_impulse;
+        kick.multiplier_angular_impulse = impulse.moment + beyond.moment;
         kicks.push_back(kick);
     }
     return kicks;

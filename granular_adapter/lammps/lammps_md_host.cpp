@@ -234,6 +234,8 @@ void LammpsMdHost::restore(const SavedState& state) {
     const StateFile file(ranks_.communicator);
     if (ranks_.own == 0) file.write(state);
     lammps_->command("clear");
+    // Neither has it the strips of ranks along x (scene.cpp).
+    lammps_->command(strips_along_x);
     lammps_->command("read_restart " + file.name());
     // A restart file has atoms and their values, not the commands of the scene.
     declare_properties(*lammps_, grains_->in_space() ? 3 : 2);

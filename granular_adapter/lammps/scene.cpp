@@ -83,10 +83,9 @@ void declare_box(Library& lammps, int dimension, const Vec3& size, const nscd::P
     const auto boundary = [&](int axis) {
         return period.repeats(axis) || (axis == 2 && !in_space) ? 'p' : 'm';
     };
-    // One layer of ranks along y and z makes strips along x.
     run_all(lammps, {"units si", fmt::format("dimension {}", dimension),
                      fmt::format("boundary {} {} {}", boundary(0), boundary(1), boundary(2)),
-                     "atom_style sphere", "processors * 1 1"});
+                     "atom_style sphere", strips_along_x});
     const double thick = 0.01 * std::max(size[0], size[1]);
     lammps.command(fmt::format("region domain block 0 {:.17g} 0 {:.17g} {:.17g} {:.17g}", size[0],
                                size[1], in_space ? 0.0 : -thick, in_space ? size[2] : thick));

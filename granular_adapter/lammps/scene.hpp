@@ -19,6 +19,9 @@ namespace turbidite::lammps {
 /// The fix that calls the host in every sub-step, after all contact forces.
 extern const char* const loads_fix;
 
+/// The command that LAMMPS needs before it has a box: one layer of ranks along y and z.
+inline constexpr const char* strips_along_x = "processors * 1 1";
+
 /// The box of the domain, which along axes that do not repeat grows with the grains that leave it,
 /// divided among the ranks into strips along x.
 void declare_box(Library& lammps, int dimension, const Vec3& size, const nscd::PeriodicBox& period,

@@ -137,8 +137,10 @@ nscd::StepReport NscdAdapter::solve_contacts(const Window& window,
     FreeMotion free;
     // A rank without grains gets no responses, but takes part in the same kind of step.
     answered_ = on_any_rank(!responses.empty());
+    // Nor does anybody answer where all grains have left.
+    const bool any_grain = on_any_rank(bodies().size() > 0);
     agree([&] {
-        if (!answered_ && light_) refuse_light_grain(*light_);
+        if (!answered_ && any_grain && light_) refuse_light_grain(*light_);
         if (answered_)
             free =
                 free_motion(bodies(), responses, in_window(window), engine().settings().dimension);

@@ -29,6 +29,10 @@ CellSums sum_cells(const CollocationPoints& points, int g) {
     return sums;
 }
 
+CellSums sums_of(const FluidBeyond& beyond, double m) {
+    return CellSums(beyond.mass, beyond.first.x(), beyond.first.y(), beyond.second.trace()) / m;
+}
+
 Planar sum_velocity(const CollocationPoints& points, const VelocityPointers& velocity, int g) {
     const double *ux = velocity[0], *uy = velocity[1];
     expect_cells(points, g + 1, ux, uy);

@@ -28,6 +28,9 @@ using CellSums = Eigen::Matrix<double, 4, 1>;
 /// The sums over this rank's cells for grain g.
 CellSums sum_cells(const CollocationPoints& points, int g);
 
+/// Those of fluid beyond a free side, as many of the reference cells, of mass m.
+CellSums sums_of(const FluidBeyond& beyond, double m);
+
 /// The same of u_x, u_y, r x u [m/s, m2/s].
 Planar sum_velocity(const CollocationPoints& points, const VelocityPointers& velocity, int g);
 

@@ -61,6 +61,8 @@ void SaddleOperator::sum_bodies() {
         sums_[g] = sum_cells(*points_, static_cast<int>(g));
     // A rank has the cells it owns, and A needs those of the whole grain.
     sum_over_holders(sums_);
+    for (std::size_t g = 0; g < grains_->size(); ++g)
+        sums_[g] += sums_of((*grains_)[g].beyond, field_->reference_mass());
     body_.resize(grains_->size());
     for (std::size_t g = 0; g < grains_->size(); ++g)
         body_[g] = body_inertia((*grains_)[g], sums_[g], field_->reference_mass());

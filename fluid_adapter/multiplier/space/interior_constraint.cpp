@@ -47,6 +47,11 @@ struct Moments {
     }
 };
 
+/// As many of the reference cells, of mass m.
+Moments moments_of(const FluidBeyond& beyond, double m) {
+    return {beyond.mass / m, beyond.first / m, beyond.second / m};
+}
+
 /// Of a run: r = first + c h e_x, c = 0 .. count - 1.
 void add_run(Moments& sums, const CellRun& run, double h) {
     for (int c = 0; c < run.count; ++c) {
@@ -143,6 +148,8 @@ void InteriorConstraint::sum_bodies() {
     }
     // Each rank has the cells of its layers.
     sum_over_holders(sums);
+    for (std::size_t g = 0; g < grains.size(); ++g)
+        sums[g] += moments_of(grains[g].beyond, field_.reference_mass()).numbers();
     bodies_.resize(grains.size());
     linear_.assign(grains.size(), 0.0);
     angular_.assign(grains.size(), 0.0);

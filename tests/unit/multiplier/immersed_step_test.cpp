@@ -275,5 +275,28 @@ TEST(ImmersedStep, UnknownPointsListTheKnown) {
     }
 }
 
+// A disc lighter than the fluid leaves through a free side: beyond it there are no cells to move,
+// and it must not move as if it had no mass there.
+TEST(ImmersedStep, AGrainOnItsWayOutKeepsItsInertia) {
+    for (const double x : {3.0, 5.7, 6.0, 6.3, 6.47}) {
+        MemoryField field(96, 96, Side::open);
+        field.fill([](double, double) { return Planar(0.2, -0.1, 0.0); });
+        Settings coupled = settings(1e-6);
+        coupled.set("fluid.splitting", std::string("explicit-multiplier"));
+        ImmersedStep five(field, coupled, {{"disc", {}}});
+        GrainState light = grain(9, x, 3.0, {0.2, -0.1, 0.0});
+        light.density = 0.9;
+        five.take_free({light}, window);
+        five.solve();
+        five.impose();
+        // (M - m_f) g dt on M: -(0.9 - 1)/0.9 dt upwards; boundary points hold some fluid more.
+        const Kick kick = five.kicks().at(0);
+        const double rise = kick.velocity[1] + 0.1, whole = 0.1 / 0.9 * step;
+        EXPECT_LT(rise, 1.05 * whole) << x;
+        EXPECT_GT(rise, 0.45 * whole) << x;
+        EXPECT_LT(0.5 * std::abs(kick.angular_velocity[2]), 0.1 * whole) << x;
+    }
+}
+
 }  // namespace
 }  // namespace turbidite
