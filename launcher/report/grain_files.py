@@ -54,7 +54,11 @@ def series(index):
 
 def read_grains(time, path):
     """Grains of a VTK PolyData file, with the outlines from the file beside it if it exists."""
-    arrays = read_arrays(path)
+    return grains_of(time, path, read_arrays(path))
+
+
+def grains_of(time, path, arrays):
+    """The same of arrays that have been read."""
     if 'radius' not in arrays:
         raise ValueError(f'{path.name} has no array "radius"')
     grains = Grains(time, in_plane(arrays['Points']), arrays['radius'], z=across(arrays['Points']))

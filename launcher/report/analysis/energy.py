@@ -74,9 +74,9 @@ def weighted_fall(run):
 
 
 def fall_of(run, snapshot):
-    """Masses and weights over rho_s D^2 (and g), rho_s that of grains.density_ratio."""
+    """Masses and weights over rho_s D^2 (and g)."""
     weights = weights_of(run, snapshot)
-    displaced = snapshot.areas / float(run.case.get('grains.density_ratio', 1.0)) if run.is_wet() else 0.0
+    displaced = snapshot.areas / snapshot.density if run.is_wet() else 0.0
     return float((weights * snapshot.velocities[:, 1]).sum() / (weights + displaced).sum())
 
 
@@ -99,11 +99,11 @@ def fluid_kinetic(run):
     """(times [t_c], kinetic energy of the liquid outside grains) at up to 11 of the fields; None without fields.
     Cells in grains move with them and have rho_f/rho_s of the grains' kinetic energy."""
     time, grains = run.column('kinetic_energy')
-    ratio = float(run.case.get('grains.density_ratio', 1.0))
     there = snapshots.snapshots(run)
     if not run.is_wet() or not there or not len(grains) or 'domain.size' not in run.case:
         return None
     box = np.prod(run.size()) * (run.depth() if run.in_space() else 1.0)
+    ratio = there[0].density
     mass = there[0].areas.sum() * ratio  # in rho_f D^2, in space rho_f D^3
     times, fields = [], fluid_fields.field_times(run)
     for moment, folder in [fields[i] for i in snapshots.evenly(len(fields), MOST_FIELDS)]:

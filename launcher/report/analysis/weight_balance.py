@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import solid
 from analysis import snapshots
 from analysis.once import once_per_run
 
@@ -31,8 +32,8 @@ class Profile:
 
 
 def submerged_share(run):
-    """1 - rho_f/rho_s in a fluid, 1 in dry runs."""
-    return 1.0 - 1.0 / float(run.case.get('grains.density_ratio', 1.0)) if run.is_wet() else 1.0
+    """1 - rho_f/rho_s in a fluid, 1 in dry runs; rho_s of the grains at first."""
+    return 1.0 - 1.0 / solid.first_mean_density(run) if run.is_wet() else 1.0
 
 
 def weights_of(run, snapshot):

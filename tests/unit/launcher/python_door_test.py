@@ -194,6 +194,19 @@ class Grains(Door):
             self.assertEqual(contacts[0].table()['end_y'].tolist(), [0.5])
 
 
+    def test_forces_of_contacts_are_over_the_mean_density_of_the_grains(self):
+        """Of all that are there: 3 and 5 times that of the liquid, then 3 alone."""
+        cells = array('id_a', np.array([-3]), 1) + array('id_b', np.array([4]), 1) + array('normal_force', [12.5], 1)
+        for name, densities in (('a', [5000.0, 3000.0]), ('b', [3000.0])):
+            file = self.folder / f'grains/{name}.vtp'
+            file.write_text(file.read_text().replace('<PointData>', '<PointData>' + array('density', densities, 1)))
+            self.write(f'grains/c{name}.vtp', poly_data(np.array([[0.03, 0, 0], [0.03, 0.005, 0]]), '', '', cells))
+        self.write('grains/contacts.pvd', series((0, 'ca.vtp'), (0.02, 'cb.vtp')))
+        run, weight = turbidite.load(self.folder), 1000 * 25 * 0.01**2
+        np.testing.assert_allclose(run.grains[0]['contact_force'][0, 0], 0.5 / (4 * weight))
+        np.testing.assert_allclose([one['normal_force'][0] for one in run.contacts], 12.5 / weight / np.array([4, 3]))
+
+
 class Fields(Door):
     def test_cells_have_coordinates(self):
         field = self.made_up().fields[-1]
