@@ -111,9 +111,10 @@ def field_probes(run):
 def extreme(run, sign):
     """Largest (sign 1) or smallest (-1) pressure at the last of the places, inside the pile, after the start."""
     found = probes(run)
-    if found is None or not run.is_avalanche() or len(found.values) < 2:
+    if found is None or not run.is_avalanche():
         return None
-    return float(sign * (sign * found.values[1:, -1]).max())
+    inside = found.values[found.time > 0.0, -1]
+    return float(sign * (sign * inside).max()) if len(inside) else None
 
 
 def while_starting(run):

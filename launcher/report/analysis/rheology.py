@@ -35,8 +35,8 @@ class Cells:
 
 @once_per_run
 def cells(run):
-    """Of all snapshots with contacts in which grains move; None without any."""
-    if 'domain.size' not in run.case:
+    """Of all snapshots with contacts in which grains move; None without any, and in space."""
+    if 'domain.size' not in run.case or run.in_space():
         return None
     grid = coarse_grid.grid_over(run)
     parts = [part for one in snapshots.snapshots(run) for part in [of_snapshot(run, one, grid)] if part is not None]

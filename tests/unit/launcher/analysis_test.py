@@ -336,6 +336,14 @@ class DilatancyAngles(unittest.TestCase):
     def test_rest_has_none(self):
         self.assertIsNone(dilatancy.dilatancy(with_snapshots(run(), snapshot(lattice(5, 5)))))
 
+    def test_space_has_no_triangles(self):
+        places = lattice(8, 8)
+        data = with_snapshots(run({'dimension': '3'}, time=[0, 1], pore_volume=[1, 2], mean_position_x=[1, 1.2]),
+                              snapshot(places, places[:, 1:] * [0.2, 0.05]))
+        self.assertIsNone(dilatancy.dilatancy(data))
+        curve = pores.pore_curve(data)
+        self.assertEqual((curve.change.tolist(), len(curve.void_change)), ([0.0, 1.0], 0))
+
 
 class WrittenProbes(RunFolderTest):
     def test_are_numbered_from_one(self):
@@ -388,6 +396,17 @@ class Pressures(unittest.TestCase):
         data.measured['analysis.pore_pressure.probes'] = pore_pressure.Probes(
             ['a', 'b'], np.zeros((2, 2)), np.arange(7.0), np.column_stack([100.0 + inside, inside]))
         self.assertEqual(pore_pressure.while_starting(data), (-3.0, 1.0))
+
+    def test_extremes_are_those_after_the_start(self):
+        """Fields begin with the packing at rest, at t = 0; probes.csv does not."""
+        data = run()
+        for begin, lowest in ((0.0, -2.0), (0.5, -9.0)):
+            data.measured['analysis.pore_pressure.probes'] = pore_pressure.Probes(
+                ['a'], np.zeros((1, 2)), begin + np.arange(3.0), np.array([[-9.0], [-2.0], [3.0]]))
+            self.assertEqual((pore_pressure.extreme(data, -1), pore_pressure.extreme(data, 1)), (lowest, 3.0))
+        data.measured['analysis.pore_pressure.probes'] = pore_pressure.Probes(
+            ['a'], np.zeros((1, 2)), np.zeros(1), np.array([[-9.0]]))
+        self.assertIsNone(pore_pressure.extreme(data, 1))
 
     def test_a_closed_box_has_no_level(self):
         self.assertTrue(pore_pressure.has_level(run()))
@@ -529,6 +548,11 @@ class Rheology(unittest.TestCase):
         found = rheology.cells(with_snapshots(run(record={'u_c': 2.0}), there))
         self.assertAlmostEqual(float(np.median(found.inertial)), 0.3 / np.sqrt(1.5), delta=0.02)
 
+    def test_space_has_none(self):
+        data = with_snapshots(run({'dimension': '3'}), self.pressed(0.3))
+        self.assertIsNone(rheology.cells(data))
+        self.assertIsNone(rheology.friction_between(data, 0.1, 1.0))
+
 
 class Concentrations(unittest.TestCase):
     def test_layers_cut_discs_exactly(self):
@@ -564,6 +588,17 @@ class Snapshots(RunFolderTest):
 
 
 class Table(RunFolderTest):
+    def test_norms_at_the_end_have_all_components_of_space(self):
+        norm = {one.name: one.measure for one in MEASURED}
+        flow = dict(time=[0, 1], flow_x=[np.nan, 2], flow_y=[np.nan, 3], flow_z=[np.nan, 6])
+        self.assertEqual(norm['end_flow'](run(**flow)), 7.0)
+        flow['flow_z'] = [np.nan, np.nan]  # in the plane
+        self.assertAlmostEqual(norm['end_flow'](run(**flow)), np.sqrt(13.0))
+        force = dict(time=[0, 1], fluid_force_x=[np.nan, -1], fluid_force_y=[np.nan, 4], fluid_force_z=[np.nan, 8])
+        self.assertEqual(norm['end_force'](run(**force)), 9.0)
+        del force['fluid_force_z']  # of versions without space
+        self.assertAlmostEqual(norm['end_force'](run(**force)), np.sqrt(17.0))
+
     def test_every_column_is_explained(self):
         docs = Path(__file__).resolve().parents[3] / 'docs'
         text = (docs / 'studies.md').read_text() + (docs / 'analysis.md').read_text()

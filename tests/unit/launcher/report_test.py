@@ -341,6 +341,15 @@ class Report(RunFolderTest):
         self.assertAlmostEqual(found.slope, 0.1)
         self.assertIsNone(relaxation.steepest(time[:3], time[:3], 1.0))  # shorter than the fit
 
+    def test_a_run_that_ended_after_one_row_has_a_report(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche'))
+        self.write('history.csv', 'step,time,mean_velocity_norm,mean_speed,front_x\n1,0.1,0.5,0.5,2\n')
+        self.write('grains/grains.pvd', '<VTKFile><Collection><DataSet timestep="0" part="0" '
+                   'file="grains_00000000.vtp"/></Collection></VTKFile>')
+        self.assertIsNone(relaxation.relaxation(run_data.load_run(self.folder)))
+        self.assertNotIn('cannot be', self.make())
+
     def test_there_is_no_relaxation_time_without_a_slide(self):
         self.write_all()
         creep = 'step,time,mean_velocity_norm\n' + ''.join(f'{n},{n},{0.009 * n}\n' for n in range(11))
