@@ -45,8 +45,8 @@ def add_deposit(page, run):
     axes.legend(fontsize=8)
     page.heading('Heap' if found.is_heap else 'Surface')
     page.panels([(figure, 'heap')], deposit.caption(found) + ('' if findings.rest_time(run) else ' It still moves.') + (
-        ' Highest points of the grains in columns of one D x D, mean over the depth; the foot is where less than half a D '
-        'is left.' if run.in_space() else ' Highest point of the grains in each column of one D.'))
+        ' Highest points of the grains in columns of one D x D, mean over the depth; below half a D the floor '
+        'counts as bare.' if run.in_space() else ' Highest point of the grains in each column of one D.'))
 
 
 def add_shear(page, run):

@@ -10,6 +10,7 @@ import run_data
 from analysis import (coarse_grid, concentration, deposit, dilatancy, energy, packing_triangles, panels, phases,
                       pore_pressure, pores, rheology, shear_band, snapshots, waves, weight_balance)
 from document.page import Page
+from grain_files import Grains
 from measured import MEASURED
 
 DISC = np.pi / 4.0
@@ -83,9 +84,9 @@ class Grids(unittest.TestCase):
 class Heaps(unittest.TestCase):
     x = np.arange(40) + 0.5
 
-    def test_slope_and_foot_of_a_straight_heap(self):
+    def test_slope_and_extent_of_a_straight_heap(self):
         height = np.maximum(0.0, 12.0 - 0.5 * self.x)  # meets the floor at 24
-        self.assertEqual(deposit.foot_of(self.x, height), 24.0)
+        self.assertEqual(deposit.covered(height), 24)
         level, rise = deposit.fitted_line(self.x, height)
         self.assertAlmostEqual(level, 12.0)
         self.assertAlmostEqual(rise, -0.5)
@@ -93,7 +94,7 @@ class Heaps(unittest.TestCase):
     def test_single_grains_beyond_the_foot_do_not_count(self):
         height = np.maximum(0.0, 12.0 - 0.5 * self.x)
         height[35] = 1.0
-        self.assertEqual(deposit.foot_of(self.x, height), 24.0)
+        self.assertEqual(deposit.covered(height), 24)
 
     def test_run_out_is_over_the_first_width(self):
         found = deposit.Deposit(1.0, self.x, self.x, 10.0, 25.0, 1.0, None, None)
@@ -115,18 +116,52 @@ GRAIN = """<?xml version="1.0"?>
 
 
 class WrittenDeposits(RunFolderTest):
-    def heap(self, *columns):
-        """A folder with an output for each list of how many discs lie in each column of one D."""
+    def heap(self, *columns, by=0.0, depth=None):
+        """A folder with an output for each list of how many discs lie in each column of one D, moved by so much; spheres
+        in the middle of so many D."""
         self.write_all()
         self.write('case.yaml', CASE.replace('sedimentation', 'avalanche').replace('[4, 6]', '[8, 6]'))
         entries = ''
         for k, counts in enumerate(columns):
-            places = [f'{i + 0.5} {j + 0.5} 0' for i, count in enumerate(counts) for j in range(count)]
+            places = [f'{i + 0.5 + by} {j + 0.5} {0.5 * depth if depth else 0}' for i, count in enumerate(counts)
+                      for j in range(count)]
             self.write(f'grains/grains_{k:08d}.vtp', GRAIN.format(count=len(places), places=' '.join(places),
                                                                   radii=' '.join(len(places) * ['0.5'])))
             entries += f'<DataSet timestep="{k}" part="0" file="grains_{k:08d}.vtp"/>'
         self.write('grains/grains.pvd', f'<VTKFile><Collection>{entries}</Collection></VTKFile>')
+        if depth:
+            self.write('case.yaml', (self.folder / 'case.yaml').read_text().replace(
+                'dimension: 2', 'dimension: 3').replace('[8, 6]', f'[8, 6, {depth}]'))
         return deposit.deposit(run_data.load_run(self.folder))
+
+    def test_a_sliver_in_the_next_column_is_no_column(self):
+        found = self.heap([3, 3], [3, 2, 1], by=1e-4)
+        np.testing.assert_allclose((found.first_foot, found.foot), (2.0001, 3.0001), rtol=0, atol=1e-12)
+        found = self.heap([3, 3], [3, 2, 1, 0, 0, 1], by=-0.3)
+        np.testing.assert_allclose((found.first_foot, found.foot), (1.7, 2.7), rtol=0, atol=1e-12)
+
+    def test_a_sphere_ends_where_it_ends(self):
+        for by in (-0.3, 0.3):
+            self.assertAlmostEqual(self.heap([3, 3], [3, 2, 1], by=by, depth=1).foot, 3.0 + by)
+
+    def test_a_polygon_ends_at_its_corners(self):
+        self.heap([3, 3], [3, 3])
+        grains = Grains(0.0, np.array([[1.0, 0.5]]), np.array([1.0]),
+                        outlines={0: np.array([[0.5, 0.0], [1.6, 0.0], [1.0, 1.0]])})
+        data = run_data.load_run(self.folder)
+        self.assertEqual(deposit.foot_of(data, grains, np.array([1.0, 0.5, 0.0])), 1.6)
+
+    def test_the_side_of_the_box_ends_a_heap(self):
+        found = self.heap([3, 3], [1] * 8, by=0.4)
+        self.assertEqual((found.foot, found.fits), (8.0, False))
+        found = self.heap([3, 3], [1] * 8, by=-0.4)
+        self.assertEqual((round(found.foot, 12), found.fits), (7.6, False))
+
+    def test_a_column_that_settles_is_no_heap(self):
+        found = deposit.Deposit(1.0, np.arange(8), np.arange(8), 4.0, 4.4, 1.0, 30.0, (1.0, -0.5))
+        self.assertFalse(found.is_heap)
+        found.foot = 4.6
+        self.assertTrue(found.is_heap)
 
     def test_its_feet_are_those_of_the_first_and_the_last_output(self):
         found = self.heap([3, 3], [3, 2, 1], [2, 2, 1, 1, 0, 1])
@@ -136,7 +171,6 @@ class WrittenDeposits(RunFolderTest):
 
     def test_a_heap_at_the_side_of_the_box_is_told(self):
         self.assertFalse(self.heap([4, 4], [1, 1, 1, 1, 1, 1, 1, 1]).fits)
-
 
     def headings(self, *columns):
         self.heap(*columns)
