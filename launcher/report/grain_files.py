@@ -18,6 +18,7 @@ class Grains:
     outlines: dict = None          # index of a polygon: its corners (k, 2)
     forces: np.ndarray = None      # (n, 2) of the fluid, buoyancy apart
     densities: np.ndarray = None   # (n,)
+    prescribed: np.ndarray = None  # (n,) bool
     z: np.ndarray = None           # (n,) of the centres; 0 in the plane
     velocity_z: np.ndarray = None  # (n,)
 
@@ -67,6 +68,7 @@ def grains_of(time, path, arrays):
     if 'velocity' in arrays:
         grains.velocities, grains.velocity_z = in_plane(arrays['velocity']), across(arrays['velocity'])
     grains.densities = arrays.get('density')
+    grains.prescribed = arrays['prescribed'] > 0 if 'prescribed' in arrays else None
     if 'force' in arrays:
         grains.forces = in_plane(arrays['force'])
     corners = path.with_name(path.name.replace('grains_', 'outlines_', 1))

@@ -41,6 +41,14 @@ class Snapshot:
     contacts: Contacts      # None where the adapter tells none
     weights: np.ndarray = None  # (n,) submerged [rho_s g D^2]
     density: float = 1.0    # rho_s/rho_f
+    prescribed: np.ndarray = None  # (n,) bool; None: no grain is
+
+    def free(self):
+        """(n,) bool: grains whose motion is not prescribed."""
+        return np.ones(len(self.ids), bool) if self.prescribed is None else ~self.prescribed
+
+    def prescribed_ids(self):
+        return self.ids[~self.free()]
 
 
 def evenly(count, most=MOST_SNAPSHOTS):
@@ -74,7 +82,7 @@ def read_snapshot(run, time, grain_file, contact_file):
     return Snapshot(time / run.scale('t_c'), grains.ids, grains.centres / diameter, grains.radii / diameter,
                     grains.velocities / run.scale('u_c'), solid.volumes(run, grains), force,
                     read_contacts(run, contact_file, solid.unit_force(run, grains)) if contact_file else None,
-                    submerged_weights(run, grains), solid.mean_density(run, grains))
+                    submerged_weights(run, grains), solid.mean_density(run, grains), grains.prescribed)
 
 
 def submerged_weights(run, grains):

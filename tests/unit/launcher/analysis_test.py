@@ -490,6 +490,37 @@ class Weights(unittest.TestCase):
         self.assertAlmostEqual(float(found.sides[0]), 1 / 3)
         self.assertAlmostEqual(float(found.rest()[0]), 0.0)
 
+    def on_fixed(self, contact):
+        """The tower without its lowest disc, on a fixed one that stands on the floor, beside another fixed one."""
+        weight = DISC / 3.0
+        first, second, ends, sign = contact
+        contacts = snapshots.Contacts(np.array([-3, first, 1, -3]), np.array([0, second, 2, 3]),
+                                      np.array([[[1, 0], [1, 0.5]], ends, [[1, 1.5], [1, 2.5]], [[9, 0], [9, 0.5]]]),
+                                      np.array([[0, 9.0], [0, 2 * sign * weight], [0, weight], [0, 5.0]]))
+        one = snapshot([[1, 0.5], [1, 1.5], [1, 2.5], [9, 0.5]], contacts=contacts,
+                       force=np.array([[0, 7.0], [0, 0], [0, 0], [0, 7.0]]))
+        one.prescribed = np.array([True, False, False, True])
+        return one
+
+    def test_prescribed_grains_carry_as_walls_do(self):
+        for contact in ((0, 1, [[1, 0.5], [1, 1.5]], 1), (1, 0, [[1, 1.5], [1, 0.5]], -1)):
+            one = self.on_fixed(contact)
+            data = with_snapshots(run(time=[0, 1], mean_speed=[0, 0]), one)
+            found = weight_balance.carriers(data)
+            self.assertEqual((found.floor[0], found.sides[0], found.fluid[0]), (0.0, 0.0, 0.0))
+            self.assertAlmostEqual(float(found.prescribed[0]), 1.0)
+            self.assertAlmostEqual(weight_balance.final_defect(data), 0.0)
+            self.assertAlmostEqual(weight_balance.least_on_contacts(data), 1.0)
+            over_height = weight_balance.profile(data, one)
+            np.testing.assert_allclose(over_height.weight, [1, 1, 0.5])
+            np.testing.assert_allclose(over_height.contacts, [1, 1, 0.5])
+
+    def test_where_all_grains_are_prescribed_nothing_weighs(self):
+        one = tower()
+        one.prescribed = np.ones(3, bool)
+        self.assertIsNone(weight_balance.profile(run(), one))
+        self.assertIsNone(weight_balance.carriers(with_snapshots(run(), one)))
+
     def test_grains_of_their_own_densities(self):
         one = tower()
         one.weights = DISC * np.array([1.0, 1.0, 2.0]) / 3.0

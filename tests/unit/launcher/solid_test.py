@@ -82,6 +82,12 @@ class WrittenGrains(RunFolderTest):
         np.testing.assert_allclose([first.fluid_force[0, 1], last.fluid_force[0, 1]], [2.0, 3.0])
         np.testing.assert_allclose([float(one.forces[0]) for one in contact_files.networks(self.run_data)], [2.0, 3.0])
 
+    def test_prescribed_grains_are_known(self):
+        self.assertTrue(snapshots.snapshots(self.run_data)[0].free().all())
+        file = self.folder / 'grains/grains_00000000.vtp'
+        file.write_text(file.read_text().replace('<PointData>', '<PointData>' + array('prescribed', np.array([0, 1]), 1)))
+        self.assertEqual(snapshots.snapshots(run_data.load_run(self.folder))[0].prescribed_ids().tolist(), [9])
+
     def test_pressures_are_over_the_density_of_the_first_grains(self):
         self.assertAlmostEqual(pore_pressure.unit(self.run_data), 2.0)
         self.assertAlmostEqual(weight_balance.submerged_share(self.run_data), 2.0 / 3.0)
