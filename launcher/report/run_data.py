@@ -55,6 +55,10 @@ class RunData:
         arrived = [t for t, x in zip(time, front) if x >= self.size()[0] - 0.5]
         return arrived[0] if arrived else None
 
+    def has_cyclic_floor(self):
+        """What leaves at the bottom comes in at the top."""
+        return self.case.get('domain.bottom') == 'cyclic'
+
     def is_wet(self):
         return self.case.get('fluid.enabled') != 'false'
 

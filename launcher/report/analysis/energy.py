@@ -42,10 +42,11 @@ class Budget:
 
 @once_per_run
 def budget(run):
-    """None for runs of versions that do not write the works."""
+    """None for runs of versions that do not write the works, and where grains that leave at the bottom come in at the top,
+    which changes their potential energy."""
     time, contacts = run.column('contact_work')
     potential = run.column('potential_energy')[1]
-    if not len(contacts) or len(potential) != len(contacts) + 1:
+    if not len(contacts) or len(potential) != len(contacts) + 1 or run.has_cyclic_floor():
         return None
     whole = run.history['grains'] == run.history['grains'][0]
     rows = len(whole) if whole.all() else int(np.argmin(whole))

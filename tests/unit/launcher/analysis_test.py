@@ -575,6 +575,12 @@ class Energies(unittest.TestCase):
         grains[12:] = 6
         self.assertEqual(len(energy.budget(self.fall(grains=grains)).time), 12)
 
+    def test_a_cyclic_bottom_has_none(self):
+        data = self.fall()
+        data.case['domain.bottom'] = 'cyclic'
+        self.assertIsNone(energy.budget(data))
+        self.assertIsNone(energy.largest_defect(data))
+
     def test_histories_without_works_have_none(self):
         self.assertIsNone(energy.budget(run(time=[0, 1], grains=[1, 1], kinetic_energy=[0, 1])))
 
@@ -619,10 +625,24 @@ class Rheology(unittest.TestCase):
         self.assertIsNone(rheology.friction_between(data, 0.1, 1.0))
 
 
+def below(height):
+    """Area of a disc of one D below y = 0, its centre so high; also of one so far below the top, above that."""
+    angle = np.arccos(2.0 * height)
+    return 0.25 * (angle - np.sin(angle) * np.cos(angle))
+
+
 class Concentrations(unittest.TestCase):
     def test_layers_cut_discs_exactly(self):
         one = snapshot([[1, 0.5], [3, 1.0]])
         np.testing.assert_allclose(concentration.in_layers(one, np.array([0.0, 1.0, 2.0])), [1.5 * DISC, 0.5 * DISC])
+
+    def test_a_cyclic_bottom_keeps_all_solid(self):
+        one = snapshot([[1, 0.1], [3, 3.0]])
+        for case, solid in (({'domain.bottom': 'cyclic'}, 2 * DISC), ({}, 2 * DISC - below(0.1) - below(0.0))):
+            data = with_snapshots(run({'domain.size': '[4, 3]', **case}), one)
+            shares = concentration.concentration(data).shares
+            self.assertAlmostEqual(float(shares.sum()) * 4, solid)
+        self.assertGreater(shares[0, 2], 0.0)
 
     def test_shares_of_the_box(self):
         data = with_snapshots(run({'domain.size': '[4, 3]'}), snapshot([[1, 0.5], [3, 0.5]]))
