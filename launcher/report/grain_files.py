@@ -102,8 +102,13 @@ def across(triples):
 
 
 def read_arrays(path):
-    """Every array of a one-piece PolyData file by name, flat, the positions as `Points`. Where points and cells share
-    a name, it is that of the cells. ValueError unless the arrays are ascii."""
+    """Those of read_shaped, flat."""
+    return {name: values.ravel() for name, values in read_shaped(path).items()}
+
+
+def read_shaped(path):
+    """Every array of a one-piece PolyData file by name, (n,) or (n, components), the positions as `Points`. Where points
+    and cells share a name, it is that of the cells. ValueError unless the arrays are ascii."""
     piece = ElementTree.parse(path).find('.//Piece')
     arrays = {'Points': _array(piece.find('Points/DataArray'))}
     for group in ('Verts', 'Lines', 'Polys', 'PointData', 'CellData'):
@@ -115,4 +120,6 @@ def read_arrays(path):
 def _array(element):
     if element.get('format') != 'ascii':
         raise ValueError(f'array format {element.get("format")} is not ascii')
-    return np.array((element.text or '').split(), dtype=float)
+    values = np.array((element.text or '').split(), dtype=float)
+    components = int(element.get('NumberOfComponents', 1))
+    return values if components == 1 else values.reshape(-1, components)

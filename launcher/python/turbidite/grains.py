@@ -19,7 +19,7 @@ def grains(data):
 
     def read(number):
         time, path = entries[number]
-        arrays = files.read_arrays(path)
+        arrays = files.read_shaped(path)
         there = files.grains_of(time, path, arrays)
         found = scaled({'position': arrays.pop('Points'), **arrays}, units.of_grains(data, there), data.in_space())
         return Points(time / data.scale('t_c'), found, outlines_of(data, there))
@@ -35,7 +35,7 @@ def contacts(data):
     def read(number):
         time, path = entries[number]
         there = files.read_grains(time, grain_entries[time]) if time in grain_entries else None
-        arrays, of = files.read_arrays(path), units.of_contacts(data, there)
+        arrays, of = files.read_shaped(path), units.of_contacts(data, there)
         ends = arrays.pop('Points').reshape(-1, 2, 3)[..., :dimension] / of['ends']
         return Points(time / data.scale('t_c'), {**scaled(arrays, of, data.in_space()), 'ends': ends})
     return Series('contacts', [time / data.scale('t_c') for time, _ in entries], read)
@@ -54,16 +54,14 @@ def entries_of(data, name):
 
 def scaled(arrays, of, in_space):
     """Arrays (n,), vectors (n, 2) or (n, 3), quaternions (n, 4), divided by their units."""
-    count = len(arrays['id'] if 'id' in arrays else arrays['id_a'])
     found = {}
     for name, values in arrays.items():
         if name in TOPOLOGY:
             continue
-        shaped = values.reshape(count, -1) if len(values) > count else values
         if name in INTEGERS:
-            found[name] = shaped.astype(np.int64)
+            found[name] = values.astype(np.int64)
         else:
-            found[name] = in_plane(name, shaped, in_space) / of.get(name, 1.0)
+            found[name] = in_plane(name, values, in_space) / of.get(name, 1.0)
     return found
 
 

@@ -174,6 +174,31 @@ class Grains(Door):
         self.assertIn('orientation_w', table.columns)
         self.assertNotIn('velocity_z', table.columns)
 
+    def test_an_empty_box_keeps_its_shapes(self):
+        self.write('grains/empty.vtp', grain_file([], *3 * [np.empty((0, 3))]))
+        self.write('grains/grains.pvd', series((0, 'a.vtp'), (0.02, 'empty.vtp')))
+        grains = turbidite.load(self.folder).grains
+        shapes = {name: values.shape for name, values in grains[1].items()}
+        self.assertEqual(shapes, {name: (0, *values.shape[1:]) for name, values in grains[0].items()})
+        self.assertEqual(shapes['velocity'], (0, 2))
+        ids, positions = grains.over_time('position')
+        self.assertEqual((ids.tolist(), positions.shape), ([4, 9], (2, 2, 2)))
+        self.assertTrue(np.isnan(positions[1]).all())
+        with mock.patch.dict(sys.modules, {'pandas': None}):
+            self.assertEqual(grains[1].table().columns, grains[0].table().columns)
+            self.assertEqual(len(grains[1].table()), 0)
+
+    def test_an_output_without_contacts_keeps_its_shapes(self):
+        cells = lambda count: (array('id_a', np.full(count, -3), 1) + array('id_b', np.full(count, 4), 1)
+                               + array('normal_force', np.ones(count), 1) + array('force', np.ones((count, 3))))
+        for count in (0, 1):
+            self.write(f'grains/c{count}.vtp', poly_data(np.zeros((2 * count, 3)), '', '', cells(count)))
+        self.write('grains/contacts.pvd', series((0, 'c0.vtp'), (0.02, 'c1.vtp')))
+        none, one = turbidite.load(self.folder).contacts
+        self.assertEqual([none[name].shape for name in ('id_a', 'force', 'ends')], [(0,), (0, 2), (0, 2, 2)])
+        with mock.patch.dict(sys.modules, {'pandas': None}):
+            self.assertEqual(none.table().columns, one.table().columns)
+
     def test_an_index_that_is_being_written(self):
         self.write('grains/grains.pvd', '<VTKFile><Coll')
         with self.assertRaisesRegex(turbidite.NotThere, 'at work'):
