@@ -28,16 +28,13 @@ class Measured:
 
 
 def end_of(column):
-    def value(run):
-        _, values = run.column(column)
-        return float(values[-1]) if len(values) else None
-    return value
+    return lambda run: run.end(column)
 
 
 def end_norm(vector):
     """Norm in the last row of a vector with the columns `vector`_x, _y and, in space, _z."""
     def value(run):
-        x, y, z = (end_of(f'{vector}_{axis}')(run) for axis in 'xyz')
+        x, y, z = (run.end(f'{vector}_{axis}') for axis in 'xyz')
         return None if None in (x, y) else float(np.linalg.norm([x, y, z or 0.0]))
     return value
 

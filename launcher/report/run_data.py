@@ -97,6 +97,11 @@ class RunData:
         given = np.isfinite(self.history[name])
         return self.history['time'][given], self.history[name][given]
 
+    def end(self, name):
+        """A quantity in the last row of the history; None where it is empty, as the means of a box without grains are."""
+        value = np.nan if self.history is None or name not in self.history else self.history[name][-1]
+        return float(value) if np.isfinite(value) else None
+
 
 def load_run(folder):
     run = RunData(Path(folder))

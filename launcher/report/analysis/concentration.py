@@ -53,9 +53,10 @@ def volume_below(height, radius, level):
 
 
 def bed(run):
-    """(height [D] below which the layers are denser than half of the densest, concentration there) at the end."""
+    """(height [D] below which the layers are denser than half of the densest, concentration there) at the end; None for
+    an empty box."""
     found = concentration(run)
-    if found is None:
+    if found is None or not found.shares[-1].any():
         return None
     last = found.shares[-1]
     filled = np.flatnonzero(last >= 0.5 * last.max())

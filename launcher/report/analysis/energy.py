@@ -67,7 +67,7 @@ def weighted_fall(run):
     """sum of (M - m_f) U_y over the sum of M at the rows [u_c]. The history has the number mean of U_y, which is all that
     equal grains need; how much that of unequal ones differs is known at the snapshots and taken linearly in between."""
     mean = submerged_share(run) * run.history['mean_velocity_y']
-    there = snapshots.snapshots(run)
+    there = [one for one in snapshots.snapshots(run) if len(one.ids)]
     if not there:
         return mean
     apart = [fall_of(run, one) - submerged_share(run) * one.velocities[:, 1].mean() for one in there]

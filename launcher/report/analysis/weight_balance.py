@@ -124,9 +124,8 @@ def carriers(run):
 
 def final_defect(run):
     """|1 - what carries the weight| at the last output of grains at rest (mean speed below 1e-3 u_c); else None."""
-    found = carriers(run)
-    _, speed = run.column('mean_speed')
-    if found is None or not len(speed) or speed[-1] > SETTLED:
+    found, speed = carriers(run), run.end('mean_speed')
+    if found is None or speed is None or speed > SETTLED:
         return None
     return float(abs(found.rest()[-1]))
 

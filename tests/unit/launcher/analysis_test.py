@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The analysis on made-up grains, contacts and histories whose answers are known in closed form."""
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -251,6 +252,15 @@ class PhasesOfACollapse(unittest.TestCase):
         self.assertAlmostEqual(found.heap.moving, 45.0)
         self.assertAlmostEqual(found.heap.resting, 0.5)
         self.assertAlmostEqual(found.flat.moving, np.degrees(np.arctan(0.1)))
+
+    def test_grains_that_have_left_have_no_direction(self):
+        data = self.column(self.fall)
+        last = snapshots.snapshots(data)[1]
+        for name in ('ids', 'centres', 'velocities'):
+            setattr(last, name, getattr(last, name)[:6])  # without the two on top
+        with warnings.catch_warnings():
+            warnings.simplefilter('error')
+            self.assertTrue(np.isnan(phases.moments(data)[0].top))
 
     def test_what_is_missing_is_told(self):
         for velocities, words in (((self.heap, self.flat), 'no free fall'), ((self.fall, self.flat), 'no heap'),
@@ -526,6 +536,12 @@ class Weights(unittest.TestCase):
         one.weights = DISC * np.array([1.0, 1.0, 2.0]) / 3.0
         np.testing.assert_allclose(weight_balance.profile(run(), one).weight, [1.0, 0.75, 0.5])
 
+    def test_the_figure_is_of_the_last_output_with_grains(self):
+        drawn = Page('title')
+        empty = snapshot(np.empty((0, 2)), np.empty((0, 2)), time=2.0, contacts=tower().contacts)
+        panels.add_weight(drawn, with_snapshots(run(), tower(), empty))
+        self.assertEqual(drawn.places[0][1], 'Effective stress and weight')
+
     def test_the_balance_has_to_close_at_rest_only(self):
         data = with_snapshots(run(time=[0, 1], mean_speed=[0, 1e-5]), tower(0.25))
         self.assertAlmostEqual(weight_balance.final_defect(data), 0.0)
@@ -565,6 +581,12 @@ class Energies(unittest.TestCase):
         data = with_snapshots(self.fall(**changed, contact_work=np.append(np.nan, works)), *map(shot, (0, 10, 20)))
         self.assertLess(energy.largest_defect(data), 1e-12)
         self.assertAlmostEqual(energy.budget(data).splitting[-1], -0.8 * gravity * 0.05 * speed[-1])
+
+    def test_an_empty_box_is_no_snapshot_of_the_fall(self):
+        shots = [snapshot([[0, 9]], [[0, -1]]), snapshot(np.empty((0, 2)), np.empty((0, 2)), time=2.0)]
+        with warnings.catch_warnings():
+            warnings.simplefilter('error')
+            self.assertLess(energy.largest_defect(with_snapshots(self.fall(), *shots)), 1e-12)
 
     def test_work_that_is_not_told_is_missed(self):
         work = np.append(np.nan, np.full(20, -0.01))
@@ -650,6 +672,14 @@ class Concentrations(unittest.TestCase):
         np.testing.assert_allclose(found.shares, [[2 * DISC / 4, 0, 0]], atol=1e-15)
         self.assertEqual(concentration.bed(data), (1.0, found.shares[0, 0]))
 
+    def test_an_empty_box_has_no_bed(self):
+        data = with_snapshots(run({'domain.size': '[4, 3]', 'scales.kind': 'physical'}), snapshot([[1, 0.5]]),
+                              snapshot(np.empty((0, 2)), np.empty((0, 2)), time=2.0))
+        self.assertIsNone(concentration.bed(data))
+        drawn = Page('title')
+        panels.add_concentration(drawn, data)
+        self.assertIn('At the end the box is empty.', ' '.join(drawn.parts))
+
 
 class Snapshots(RunFolderTest):
     def test_damaged_outputs_are_said_and_left_out(self):
@@ -673,6 +703,15 @@ class Snapshots(RunFolderTest):
 
 
 class Table(RunFolderTest):
+    def test_an_empty_box_has_no_end(self):
+        data = with_snapshots(run({'scales.kind': 'physical'}, time=[0, 1, 2], mean_speed=[1, 1e-9, np.nan],
+                                  front_x=[2, 3, np.nan], mean_position_y=[1, 1, np.nan], grains=[3, 3, 0]),
+                              tower(), snapshot(np.empty((0, 2)), np.empty((0, 2)), time=2.0))
+        told = {one.name for one in MEASURED if one.of(data) is not None}
+        self.assertFalse(told & {'end_front', 'end_height', 'rest_time', 'weight_defect', 'bed_height',
+                                 'bed_concentration'}, told)
+        self.assertEqual(data.remarks, [])
+
     def test_norms_at_the_end_have_all_components_of_space(self):
         norm = {one.name: one.measure for one in MEASURED}
         flow = dict(time=[0, 1], flow_x=[np.nan, 2], flow_y=[np.nan, 3], flow_z=[np.nan, 6])

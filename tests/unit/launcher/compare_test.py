@@ -163,6 +163,11 @@ class Compare(RunFolderTest):
         self.write(f'{name}/run.json', json.dumps(
             {'status': 'done', 'maxima': {'penetration': 1e-4 * scale, 'unconverged_windows': seed}}))
 
+    def test_an_empty_last_row_has_no_end_value(self):
+        data = run_data.RunData('nowhere', history={'time': np.arange(3.0), 'front_x': np.array([1.0, 2.0, np.nan])})
+        member = seeds.Member('one', data, [data])
+        self.assertIsNone(compare.numbers(member, member, 'front_x')['end_value'])
+
     def test_seeds_are_averaged(self):
         for seed, scale in ((1, 1.0), (2, 2.0), (3, 3.0)):
             self.write_seed(f'dense-seed{seed}', seed, scale)
