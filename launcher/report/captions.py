@@ -55,14 +55,15 @@ def collapse(run):
 
 
 def front_caption(run):
-    """Where the front goes; empty without one. At a wall it says no more than when it came there."""
+    """Where the front goes; empty without one at the end. At a wall it says no more than when it came there."""
     _, front = run.column('front_x')
-    if not len(front):
+    end = run.end('front_x')
+    if end is None:
         return ''
     arrival = run.front_arrives() if run.case.get('domain.right') == 'wall' else None
     if arrival is not None:
         return f'Front from {front[0]:.4g} D to the right wall, where it is at t = {arrival:.3g} t_c.'
-    return f'Front from {front[0]:.4g} D to {front[-1]:.4g} D.'
+    return f'Front from {front[0]:.4g} D to {end:.4g} D.'
 
 
 def grains_lost(run):
@@ -78,8 +79,9 @@ def settling(run):
         fall = velocity.argmin()
         text.append(f'Fastest mean fall: {max(0.0, -velocity[fall]):.4g} u_c at t = {time[fall]:.4g} t_c.')
     _, position = run.column('mean_position_y')
-    if len(position):
-        text.append(f'Mean position from {position[0]:.4g} D to {position[-1]:.4g} D.')
+    end = run.end('mean_position_y')
+    if end is not None:
+        text.append(f'Mean position from {position[0]:.4g} D to {end:.4g} D.')
     return ' '.join(text + [rest(run)])
 
 
@@ -87,12 +89,13 @@ def rest(run):
     part = f'{100 * findings.REST_FRACTION:g} % of its maximum'
     since = findings.rest_time(run)
     time, speed = run.column('mean_speed')
+    end = run.end('mean_speed')
     if since is not None:
         return (f'At rest from t = {since:.4g} t_c on (the mean speed stays below {part}).'
                 + ''.join(f' This depends on the time step: {warning["text"]}' for warning in run.warnings('courant')))
-    if len(speed) and speed.max() > 0.0:
+    if end is not None and speed.max() > 0.0:
         return (f'Not at rest at the end, t = {time[-1]:.4g} t_c: the mean speed is '
-                f'{100 * speed[-1] / speed.max():.3g} % of its maximum.')
+                f'{100 * end / speed.max():.3g} % of its maximum.')
     return ''
 
 
@@ -113,9 +116,9 @@ def force_network(run, networks, left_out=f'those below {100 * THINNEST:g} % of 
 def contact_statistics(run):
     text = ['Probability density of normal forces between grains over their mean, and of the '
             'directions of contacts between grains, each counted both ways.']
-    _, coordination = run.column('coordination')
-    if len(coordination):
-        text.append(f'Coordination at the end: {coordination[-1]:.3g} contacts per grain.')
+    coordination = run.end('coordination')
+    if coordination is not None:
+        text.append(f'Coordination at the end: {coordination:.3g} contacts per grain.')
     return ' '.join(text)
 
 
@@ -124,9 +127,9 @@ def motion(run):
     overlap = findings.largest(run, 'max_penetration', 'penetration')
     if overlap is not None:
         text.append(f'Largest overlap of any window: {overlap:.3g} D (dotted); the curve has the windows with output.')
-    _, contacts = run.column('contacts')
-    if len(contacts):
-        text.append(f'Contacts with an impulse at the end: {contacts[-1]:.0f}.')
+    contacts = run.end('contacts')
+    if contacts is not None:
+        text.append(f'Contacts with an impulse at the end: {contacts:.0f}.')
     return ' '.join(text)
 
 
@@ -134,12 +137,13 @@ def packing(run):
     """The loosest packing, and the share of sliding contacts at the end."""
     text = []
     _, pores = run.column('pore_volume')
-    if len(pores) and pores[0] > 0.0 and run.is_packed():
-        text.append(f'Pores from {pores[0]:.4g} {run.solid_unit()} to {pores[-1]:.4g} {run.solid_unit()} '
-                    f'({100 * (pores[-1] / pores[0] - 1):+.3g} %).')
-    _, sliding = run.column('sliding_share')
-    if len(sliding):
-        text.append(f'Sliding contacts at the end: {100 * sliding[-1]:.3g} %.')
+    end = run.end('pore_volume')
+    if end is not None and pores[0] > 0.0 and run.is_packed():
+        text.append(f'Pores from {pores[0]:.4g} {run.solid_unit()} to {end:.4g} {run.solid_unit()} '
+                    f'({100 * (end / pores[0] - 1):+.3g} %).')
+    sliding = run.end('sliding_share')
+    if sliding is not None:
+        text.append(f'Sliding contacts at the end: {100 * sliding:.3g} %.')
     return ' '.join(text)
 
 

@@ -138,8 +138,7 @@ def parameters(members):
 def numbers(first, member, column):
     """Difference from the first member; the first one has only an end value."""
     result = dict.fromkeys(['begin', 'end', 'rms', 'max', 'rms_relative', 'max_relative'])
-    _, values = member.data.column(column)
-    result['end_value'] = float(values[-1]) if len(values) else None
+    result['end_value'] = member.data.end(column)
     apart = None
     if member is not first:
         apart = difference(first.data.column(column), member.data.column(column))

@@ -4,6 +4,7 @@ import numpy as np
 
 import force_network
 import grain_files
+import solid
 
 MOST_NETWORKS = 4
 
@@ -26,19 +27,12 @@ def networks(run):
 
 
 def read_network(run, time, contact_file, grain_file):
-    """Forces in units of the weight of a square (in space a cube) of D with the density of the grains."""
+    """Forces in units of the weight of a square (in space a cube) of D with the mean density of the grains."""
     arrays = grain_files.read_arrays(contact_file)
     vectors = grain_files.in_space if run.in_space() else grain_files.in_plane
     ends = vectors(arrays['Points']) / run.scale('D')
+    grains = grain_files.read_grains(time, grain_file)
     return force_network.Network(
-        time / run.scale('t_c'), grain_files.read_grains(time, grain_file), ends.reshape(-1, 2, ends.shape[1]),
-        vectors(arrays['normal']), arrays['normal_force'] / unit_force(run),
+        time / run.scale('t_c'), grains, ends.reshape(-1, 2, ends.shape[1]),
+        vectors(arrays['normal']), arrays['normal_force'] / solid.unit_force(run, grains),
         arrays['id_a'] >= 0)
-
-
-def unit_force(run):
-    """rho_s g D^2 per unit length out of the plane, in space rho_s g D^3. Dry runs in units of D, u_c use the density of
-    a fictitious fluid as unit, so rho_s = density_ratio."""
-    fluid = float(run.record.get('rho') or 1.0)
-    density = fluid * float(run.case.get('grains.density_ratio', 1.0))
-    return density * float(run.record.get('g') or 1.0) * run.scale('D')**(3 if run.in_space() else 2)

@@ -17,9 +17,9 @@ UNCONVERGED = (('unconverged_windows', 'the contact solver missed its tolerance'
 
 
 def rest_time(run):
-    """First output time [t_c] from which the grains are at rest; None if the run ends before."""
+    """First output time [t_c] from which the grains are at rest; None if the run ends before, or without grains."""
     time, speed = run.column('mean_speed')
-    if len(speed) < 2 or speed.max() == 0.0:
+    if len(speed) < 2 or speed.max() == 0.0 or run.end('mean_speed') is None:
         return None
     moving = np.flatnonzero(speed >= REST_FRACTION * speed.max())
     first = moving[-1] + 1

@@ -18,6 +18,7 @@ class Grains:
     outlines: dict = None          # index of a polygon: its corners (k, 2)
     forces: np.ndarray = None      # (n, 2) of the fluid, buoyancy apart
     densities: np.ndarray = None   # (n,)
+    prescribed: np.ndarray = None  # (n,) bool
     z: np.ndarray = None           # (n,) of the centres; 0 in the plane
     velocity_z: np.ndarray = None  # (n,)
 
@@ -54,7 +55,11 @@ def series(index):
 
 def read_grains(time, path):
     """Grains of a VTK PolyData file, with the outlines from the file beside it if it exists."""
-    arrays = read_arrays(path)
+    return grains_of(time, path, read_arrays(path))
+
+
+def grains_of(time, path, arrays):
+    """The same of arrays that have been read."""
     if 'radius' not in arrays:
         raise ValueError(f'{path.name} has no array "radius"')
     grains = Grains(time, in_plane(arrays['Points']), arrays['radius'], z=across(arrays['Points']))
@@ -63,6 +68,7 @@ def read_grains(time, path):
     if 'velocity' in arrays:
         grains.velocities, grains.velocity_z = in_plane(arrays['velocity']), across(arrays['velocity'])
     grains.densities = arrays.get('density')
+    grains.prescribed = arrays['prescribed'] > 0 if 'prescribed' in arrays else None
     if 'force' in arrays:
         grains.forces = in_plane(arrays['force'])
     corners = path.with_name(path.name.replace('grains_', 'outlines_', 1))
@@ -96,8 +102,13 @@ def across(triples):
 
 
 def read_arrays(path):
-    """Every array of a one-piece PolyData file by name, flat, the positions as `Points`. Where points and cells share
-    a name, it is that of the cells. ValueError unless the arrays are ascii."""
+    """Those of read_shaped, flat."""
+    return {name: values.ravel() for name, values in read_shaped(path).items()}
+
+
+def read_shaped(path):
+    """Every array of a one-piece PolyData file by name, (n,) or (n, components), the positions as `Points`. Where points
+    and cells share a name, it is that of the cells. ValueError unless the arrays are ascii."""
     piece = ElementTree.parse(path).find('.//Piece')
     arrays = {'Points': _array(piece.find('Points/DataArray'))}
     for group in ('Verts', 'Lines', 'Polys', 'PointData', 'CellData'):
@@ -109,4 +120,6 @@ def read_arrays(path):
 def _array(element):
     if element.get('format') != 'ascii':
         raise ValueError(f'array format {element.get("format")} is not ascii')
-    return np.array((element.text or '').split(), dtype=float)
+    values = np.array((element.text or '').split(), dtype=float)
+    components = int(element.get('NumberOfComponents', 1))
+    return values if components == 1 else values.reshape(-1, components)

@@ -28,17 +28,14 @@ class Measured:
 
 
 def end_of(column):
-    def value(run):
-        _, values = run.column(column)
-        return float(values[-1]) if len(values) else None
-    return value
+    return lambda run: run.end(column)
 
 
-def end_norm(x, y):
-    """Norm of a vector in the last row."""
+def end_norm(vector):
+    """Norm in the last row of a vector with the columns `vector`_x, _y and, in space, _z."""
     def value(run):
-        parts = [end_of(column)(run) for column in (x, y)]
-        return None if None in parts else float(np.hypot(*parts))
+        x, y, z = (run.end(f'{vector}_{axis}') for axis in 'xyz')
+        return None if None in (x, y) else float(np.linalg.norm([x, y, z or 0.0]))
     return value
 
 
@@ -83,9 +80,9 @@ MEASURED = [
     Measured('end_velocity', 'Mean velocity at the end', r'$|\langle u \rangle|\,/\,u_c$', 'u_c',
              end_of('mean_velocity_norm')),
     Measured('end_flow', 'Mean velocity of the whole box at the end', r'$|\langle u_f \rangle|\,/\,u_c$', 'u_c',
-             end_norm('flow_x', 'flow_y')),
-    Measured('end_force', 'Force of the fluid on all grains at the end', r'$|\Sigma F|\,/\,\rho_f u_c^2 D$',
-             'ρ_f u_c² D', end_norm('fluid_force_x', 'fluid_force_y')),
+             end_norm('flow')),
+    Measured('end_force', 'Force of the fluid on all grains at the end', r'$|\Sigma F|\,/\,\rho_f u_c^2 D^{d-1}$',
+             'ρ_f u_c² D, in space ρ_f u_c² D²', end_norm('fluid_force')),
     Measured('overlap', 'Largest overlap', r'overlap $/\,D$', 'D', maximum('max_penetration', 'penetration')),
     Measured('grain_balance', 'Defect of the grains\' momentum', RELATIVE, RELATIVE,
              maximum('grain_balance', 'grain_balance')),

@@ -55,6 +55,10 @@ class RunData:
         arrived = [t for t, x in zip(time, front) if x >= self.size()[0] - 0.5]
         return arrived[0] if arrived else None
 
+    def has_cyclic_floor(self):
+        """What leaves at the bottom comes in at the top."""
+        return self.case.get('domain.bottom') == 'cyclic'
+
     def is_wet(self):
         return self.case.get('fluid.enabled') != 'false'
 
@@ -92,6 +96,11 @@ class RunData:
             return np.empty(0), np.empty(0)
         given = np.isfinite(self.history[name])
         return self.history['time'][given], self.history[name][given]
+
+    def end(self, name):
+        """A quantity in the last row of the history; None where it is empty, as the means of a box without grains are."""
+        value = np.nan if self.history is None or name not in self.history else self.history[name][-1]
+        return float(value) if np.isfinite(value) else None
 
 
 def load_run(folder):

@@ -41,6 +41,15 @@ def top_of_polygon(corners, column):
     return max(tops)
 
 
+def ends_along_x(run, grains):
+    """(left, right) ends of the grains, or of the outlines of polygons [D]."""
+    diameter = run.scale('D')
+    left, right = (grains.centres[:, 0] - grains.radii) / diameter, (grains.centres[:, 0] + grains.radii) / diameter
+    for i, corners in (grains.outlines or {}).items():
+        left[i], right[i] = corners[:, 0].min() / diameter, corners[:, 0].max() / diameter
+    return left, right
+
+
 def trimmed(x, *heights):
     """Removes the empty columns beyond the last one with grains in the first of `heights`."""
     reach = np.flatnonzero(heights[0])

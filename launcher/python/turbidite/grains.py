@@ -15,24 +15,27 @@ SPINS = ('angular_velocity', 'torque')     # in the plane their z component
 
 def grains(data):
     """Trajectories; NotThere without any output."""
-    entries, of = entries_of(data, 'grains'), units.of_grains(data)
+    entries, files = entries_of(data, 'grains'), reader('grain_files')
 
     def read(number):
         time, path = entries[number]
-        arrays = reader('grain_files').read_arrays(path)
-        found = scaled({'position': arrays.pop('Points'), **arrays}, of, data.in_space())
-        return Points(time / data.scale('t_c'), found, outlines_beside(data, path, found['id']))
+        arrays = files.read_shaped(path)
+        there = files.grains_of(time, path, arrays)
+        found = scaled({'position': arrays.pop('Points'), **arrays}, units.of_grains(data, there), data.in_space())
+        return Points(time / data.scale('t_c'), found, outlines_of(data, there))
     return Trajectories('grains', [time / data.scale('t_c') for time, _ in entries], read)
 
 
 def contacts(data):
     """Series; NotThere for programs that do not tell their contacts."""
-    entries, of = entries_of(data, 'contacts'), units.of_contacts(data)
+    entries, files = entries_of(data, 'contacts'), reader('grain_files')
+    grain_entries = dict(files.quiet_series(data))
     dimension = 3 if data.in_space() else 2
 
     def read(number):
         time, path = entries[number]
-        arrays = reader('grain_files').read_arrays(path)
+        there = files.read_grains(time, grain_entries[time]) if time in grain_entries else None
+        arrays, of = files.read_shaped(path), units.of_contacts(data, there)
         ends = arrays.pop('Points').reshape(-1, 2, 3)[..., :dimension] / of['ends']
         return Points(time / data.scale('t_c'), {**scaled(arrays, of, data.in_space()), 'ends': ends})
     return Series('contacts', [time / data.scale('t_c') for time, _ in entries], read)
@@ -51,16 +54,14 @@ def entries_of(data, name):
 
 def scaled(arrays, of, in_space):
     """Arrays (n,), vectors (n, 2) or (n, 3), quaternions (n, 4), divided by their units."""
-    count = len(arrays['id'] if 'id' in arrays else arrays['id_a'])
     found = {}
     for name, values in arrays.items():
         if name in TOPOLOGY:
             continue
-        shaped = values.reshape(count, -1) if len(values) > count else values
         if name in INTEGERS:
-            found[name] = shaped.astype(np.int64)
+            found[name] = values.astype(np.int64)
         else:
-            found[name] = in_plane(name, shaped, in_space) / of.get(name, 1.0)
+            found[name] = in_plane(name, values, in_space) / of.get(name, 1.0)
     return found
 
 
@@ -72,10 +73,6 @@ def in_plane(name, values, in_space):
     return values[:, :2] if name in VECTORS else values
 
 
-def outlines_beside(data, path, ids):
+def outlines_of(data, grains):
     """{id: corners (k, 2) [D]}"""
-    file = path.with_name(path.name.replace('grains_', 'outlines_', 1))
-    if file == path or not file.exists():
-        return {}
-    corners = reader('grain_files').read_outlines(file, ids)
-    return {int(ids[k]): outline / data.scale('D') for k, outline in corners.items()}
+    return {int(grains.ids[k]): corners / data.scale('D') for k, corners in (grains.outlines or {}).items()}

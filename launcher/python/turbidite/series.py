@@ -48,7 +48,8 @@ class Points(Output):
 
     def table(self):
         """A row per grain or contact, vectors as columns velocity_x, velocity_y, ... (a DataFrame with pandas)."""
-        flat = {name: values.reshape(len(values), -1) if values.ndim > 2 else values for name, values in self.items()}
+        flat = {name: values.reshape(len(values), np.prod(values.shape[1:])) if values.ndim > 2 else values
+                for name, values in self.items()}
         columns = {}
         for name, values in flat.items():
             if name == 'ends':

@@ -4,25 +4,26 @@ the run's own units: SI for `scales.kind: physical`, otherwise D = u_c = rho_f =
 from .readers import reader
 
 
-def of_grains(data):
-    """{array: unit}. Forces and torques of the fluid over rho_f u_c^2 D and rho_f u_c^2 D^2 (in space D^2 and D^3), the
-    force of contacts over rho_s g D^2 (D^3): as the columns fluid_force_x and mean_normal_force of history.csv are."""
+def of_grains(data, grains):
+    """{array: unit} of one output, grain_files.Grains. Forces and torques of the fluid over rho_f u_c^2 D and rho_f u_c^2 D^2 (in space D^2 and D^3), the
+    force of contacts over rho_s g D^2 (D^3) with the mean density rho_s of these grains: as the columns fluid_force_x and
+    mean_normal_force of history.csv are."""
     diameter, speed = data.scale('D'), data.scale('u_c')
     fluid_force = data.scale('rho') * speed**2 * diameter**(2 if data.in_space() else 1)
     return {'position': diameter, 'radius': diameter, 'velocity': speed, 'angular_velocity': speed / diameter,
             'density': data.scale('rho'), 'force': fluid_force, 'torque': fluid_force * diameter,
-            'contact_force': of_contact_forces(data)}
+            'contact_force': of_contact_forces(data, grains)}
 
 
-def of_contacts(data):
-    """{array: unit}"""
-    diameter, force = data.scale('D'), of_contact_forces(data)
+def of_contacts(data, grains):
+    """{array: unit} of the contacts of these grains."""
+    diameter, force = data.scale('D'), of_contact_forces(data, grains)
     return {'ends': diameter, 'point': diameter, 'gap': diameter, 'force': force, 'normal_force': force,
             'tangential_force': force, 'rolling_moment': force * diameter, 'torsion_moment': force * diameter}
 
 
-def of_contact_forces(data):
-    return reader('contact_files').unit_force(data)
+def of_contact_forces(data, grains):
+    return reader('solid').unit_force(data, grains)
 
 
 def of_fields(data):

@@ -27,15 +27,17 @@ def concentration(run):
     width, height = run.size()
     ground = width * run.depth() if run.in_space() else width
     edges = np.linspace(0.0, height, max(1, int(round(height / LAYER))) + 1)
-    return Concentration(np.array([one.time for one in there]), edges,
-                         np.array([in_layers(one, edges, run.in_space()) / (ground * np.diff(edges)) for one in there]))
+    images = (-height, 0.0, height) if run.has_cyclic_floor() else (0.0,)
+    solid = [in_layers(one, edges, run.in_space(), images) for one in there]
+    return Concentration(np.array([one.time for one in there]), edges, np.array(solid) / (ground * np.diff(edges)))
 
 
-def in_layers(snapshot, edges, in_space=False):
-    """Solid area of each layer [D^2], in space its volume [D^3]."""
+def in_layers(snapshot, edges, in_space=False, images=(0.0,)):
+    """Solid area of each layer [D^2], in space its volume [D^3], of grains and their images so far above them [D]."""
     radius = snapshot.radii if in_space else np.sqrt(snapshot.areas / np.pi)
     share = volume_below if in_space else below_level
-    return np.diff([share(snapshot.centres[:, 1], radius, level).sum() for level in edges])
+    return np.diff([sum(share(snapshot.centres[:, 1] + image, radius, level).sum() for image in images)
+                    for level in edges])
 
 
 def below_level(height, radius, level):
@@ -51,9 +53,10 @@ def volume_below(height, radius, level):
 
 
 def bed(run):
-    """(height [D] below which the layers are denser than half of the densest, concentration there) at the end."""
+    """(height [D] below which the layers are denser than half of the densest, concentration there) at the end; None for
+    an empty box."""
     found = concentration(run)
-    if found is None:
+    if found is None or not found.shares[-1].any():
         return None
     last = found.shares[-1]
     filled = np.flatnonzero(last >= 0.5 * last.max())

@@ -2,8 +2,9 @@
 """The heap that an avalanche leaves: run-out, height and slope of its free surface (Topin et al. 2011, section 3.2:
 "the final spreading length").
 
-The foot is where the surface, followed to the right from its highest column, first meets bare floor: single grains
-beyond do not count. Run-out: (foot at the end - foot at the start) / foot at the start.
+The surface, followed to the right from its highest column of one D, first meets bare floor: single grains beyond do
+not count. The foot is the farthest point of the grains that begin left of that floor. Run-out: (foot at the end - foot at
+the start) / foot at the start.
 """
 from dataclasses import dataclass
 
@@ -16,6 +17,7 @@ from analysis.once import once_per_run
 FITTED = (0.1, 0.9)  # of the height: the part of the surface whose slope is fitted
 FEWEST_COLUMNS = 3
 STEEPEST = 50.0        # degrees: loose grains do not rest on a steeper slope
+SPREAD = 0.5           # D: a foot that moves by less only settles
 STRAIGHT = 0.8         # least share of the variance that the line explains: a column that still stands has no slope
 
 
@@ -44,12 +46,12 @@ class Deposit:
     @property
     def is_heap(self):
         """It has spread, and a slope at which grains can rest: a column that stands or falls, or a layer, is none."""
-        return self.line is not None and self.foot > self.first_foot and self.slope <= STEEPEST
+        return self.line is not None and self.foot > self.first_foot + SPREAD and self.slope <= STEEPEST
 
     @property
     def fits(self):
         """Bare floor is left between the foot and the right side of the box."""
-        return self.foot < self.x[-1] + 0.5
+        return covered(self.height) < len(self.height)
 
 
 @once_per_run
@@ -57,32 +59,38 @@ def deposit(run):
     """At the last output of an avalanche; None without grains or domain."""
     if not run.is_avalanche() or 'domain.size' not in run.case:
         return None
-    last, first = surface.final_surface(run), first_surface(run)
-    if last is None or first is None or not first[1].any() or not last[2].any():
+    series = grain_files.quiet_series(run)
+    last, first = (surface.last_grains(run), grain_files.read_grains(*series[0])) if series else (None, None)
+    if last is None:
         return None
-    time, x, height = last
+    (x, height), (_, before) = surface.surface(run, last), surface.surface(run, first)
+    if not height.any() or not before.any():
+        return None
     line = fitted_line(x, height)
     slope = None if line is None else float(np.degrees(np.arctan(-line[1])))
-    return Deposit(time, x, height, foot_of(*first), foot_of(x, height), float(height.max()), slope, line)
+    return Deposit(last.time / run.scale('t_c'), x, height, foot_of(run, first, before), foot_of(run, last, height),
+                   float(height.max()), slope, line)
 
 
-def first_surface(run):
-    series = grain_files.quiet_series(run)
-    return surface.surface(run, grain_files.read_grains(*series[0])) if series else None
-
-
-def foot_of(x, height):
-    """Right end of the last column before bare floor [D], columns of one D."""
+def covered(height):
+    """How many columns lie before the first one of bare floor to the right of the highest."""
     highest = int(height.argmax())
     bare = np.flatnonzero(height[highest:] == 0.0)
-    return float(x[highest + bare[0]] - 0.5) if len(bare) else float(x[-1] + 0.5)
+    return highest + int(bare[0]) if len(bare) else len(height)
+
+
+def foot_of(run, grains, height):
+    """Farthest point of the grains that begin left of bare floor, at most the side of the box [D]."""
+    left, right = surface.ends_along_x(run, grains)
+    return float(min(right[left < covered(height)].max(), run.size()[0]))
 
 
 def fitted_line(x, height):
     """Least-squares (level, rise) of the surface from its highest column to the foot, between a tenth and nine tenths
     of its height; None for fewer than three columns, or where a line does not describe it."""
     highest, low, high = int(height.argmax()), *(part * height.max() for part in FITTED)
-    side = (np.arange(len(x)) >= highest) & (x < foot_of(x, height)) & (height >= low) & (height <= high)
+    columns = np.arange(len(x))
+    side = (columns >= highest) & (columns < covered(height)) & (height >= low) & (height <= high)
     if side.sum() < FEWEST_COLUMNS:
         return None
     rise, level = np.polyfit(x[side], height[side], 1)

@@ -29,8 +29,8 @@ def angle(growth, shear):
 
 @once_per_run
 def dilatancy(run):
-    """Over the snapshots of an avalanche in which grains move; None without any."""
-    if not run.is_avalanche():
+    """Over the snapshots of an avalanche in which grains move; None without any, and in space."""
+    if not run.is_avalanche() or run.in_space():
         return None
     rows = [(one.time, *rates(packing_triangles.triangles(one))) for one in snapshots.snapshots(run)]
     moving = [row for row in rows if row[2] > 0.0]

@@ -42,10 +42,11 @@ class Budget:
 
 @once_per_run
 def budget(run):
-    """None for runs of versions that do not write the works."""
+    """None for runs of versions that do not write the works, and where grains that leave at the bottom come in at the top,
+    which changes their potential energy."""
     time, contacts = run.column('contact_work')
     potential = run.column('potential_energy')[1]
-    if not len(contacts) or len(potential) != len(contacts) + 1:
+    if not len(contacts) or len(potential) != len(contacts) + 1 or run.has_cyclic_floor():
         return None
     whole = run.history['grains'] == run.history['grains'][0]
     rows = len(whole) if whole.all() else int(np.argmin(whole))
@@ -66,7 +67,7 @@ def weighted_fall(run):
     """sum of (M - m_f) U_y over the sum of M at the rows [u_c]. The history has the number mean of U_y, which is all that
     equal grains need; how much that of unequal ones differs is known at the snapshots and taken linearly in between."""
     mean = submerged_share(run) * run.history['mean_velocity_y']
-    there = snapshots.snapshots(run)
+    there = [one for one in snapshots.snapshots(run) if len(one.ids)]
     if not there:
         return mean
     apart = [fall_of(run, one) - submerged_share(run) * one.velocities[:, 1].mean() for one in there]
@@ -74,9 +75,9 @@ def weighted_fall(run):
 
 
 def fall_of(run, snapshot):
-    """Masses and weights over rho_s D^2 (and g), rho_s that of grains.density_ratio."""
+    """Masses and weights over rho_s D^2 (and g)."""
     weights = weights_of(run, snapshot)
-    displaced = snapshot.areas / float(run.case.get('grains.density_ratio', 1.0)) if run.is_wet() else 0.0
+    displaced = snapshot.areas / snapshot.density if run.is_wet() else 0.0
     return float((weights * snapshot.velocities[:, 1]).sum() / (weights + displaced).sum())
 
 
@@ -99,11 +100,11 @@ def fluid_kinetic(run):
     """(times [t_c], kinetic energy of the liquid outside grains) at up to 11 of the fields; None without fields.
     Cells in grains move with them and have rho_f/rho_s of the grains' kinetic energy."""
     time, grains = run.column('kinetic_energy')
-    ratio = float(run.case.get('grains.density_ratio', 1.0))
     there = snapshots.snapshots(run)
     if not run.is_wet() or not there or not len(grains) or 'domain.size' not in run.case:
         return None
     box = np.prod(run.size()) * (run.depth() if run.in_space() else 1.0)
+    ratio = there[0].density
     mass = there[0].areas.sum() * ratio  # in rho_f D^2, in space rho_f D^3
     times, fields = [], fluid_fields.field_times(run)
     for moment, folder in [fields[i] for i in snapshots.evenly(len(fields), MOST_FIELDS)]:

@@ -15,7 +15,8 @@ from curves import MARKERS, TIME_LABEL, panel
 SURFACES = 5
 PRESSURE_FIELDS = 3
 PROFILES = 3
-CARRIED = (('floor', 'contacts, floor'), ('sides', 'contacts, side walls'), ('fluid', 'liquid'))
+CARRIED = (('floor', 'contacts, floor'), ('sides', 'contacts, side walls'), ('prescribed', 'prescribed grains'),
+           ('fluid', 'liquid'))
 
 
 def add_all(page, run):
@@ -45,8 +46,8 @@ def add_deposit(page, run):
     axes.legend(fontsize=8)
     page.heading('Heap' if found.is_heap else 'Surface')
     page.panels([(figure, 'heap')], deposit.caption(found) + ('' if findings.rest_time(run) else ' It still moves.') + (
-        ' Highest points of the grains in columns of one D x D, mean over the depth; the foot is where less than half a D '
-        'is left.' if run.in_space() else ' Highest point of the grains in each column of one D.'))
+        ' Highest points of the grains in columns of one D x D, mean over the depth; below half a D the floor '
+        'counts as bare.' if run.in_space() else ' Highest point of the grains in each column of one D.'))
 
 
 def add_shear(page, run):
@@ -149,8 +150,8 @@ def add_weight(page, run):
             axes.plot(found.time, values, label=label, linewidth=1.3, marker=MARKERS[k], markersize=3)
     axes.plot(found.time, found.rest(), label='none: they accelerate', color='black', linestyle=':', linewidth=1.3)
     axes.legend(fontsize=8)
-    there = [one for one in snapshots.snapshots(run) if one.contacts is not None]
-    last = weight_balance.profile(run, there[-1])
+    profiles = (weight_balance.profile(run, one) for one in reversed(snapshots.snapshots(run)))
+    last = next(profile for profile in profiles if profile is not None)
     other, beside = panel(rf'Over the height, $t = {last.time:.3g}\,t_c$', 'share of the weight', r'$y\,/\,D$')
     beside.plot(last.weight, last.level, label='weight above', color='black', linewidth=1.3)
     beside.plot(last.contacts, last.level, label='contacts', linewidth=1.3, marker='.', markersize=3)
@@ -219,8 +220,9 @@ def add_concentration(page, run):
         beside.plot(found.shares[i], middles, linewidth=1.3, color=curves.in_order(k, len(chosen)),
                     label=rf'$t = {found.time[i]:.3g}\,t_c$')
     beside.legend(fontsize=8)
-    top, share = concentration.bed(run)
+    bed = concentration.bed(run)
+    told = 'the box is empty.' if bed is None else (f'the layers up to {bed[0]:.3g} D, those above half of the densest, '
+                                                    f'hold {bed[1]:.3g} on average.')
     page.heading('Concentration over height')
     page.panels([(figure, 'concentration'), (other, 'concentration_profiles')],
-                f'Solid share of layers of one D. At the end the layers up to {top:.3g} D, those above half of the '
-                f'densest, hold {share:.3g} on average.')
+                f'Solid share of layers of one D. At the end {told}')

@@ -61,7 +61,9 @@ class Phases:
 
 
 def direction(velocities):
-    """Of the mean, degrees below the horizontal towards the right."""
+    """Of the mean, degrees below the horizontal towards the right; nan of no grains."""
+    if len(velocities) == 0:
+        return np.nan
     x, y = velocities.mean(axis=0)
     return float(np.degrees(np.arctan2(-y, x)))
 

@@ -2,9 +2,9 @@
 """Pore pressure: the reduced pressure of the liquid (that of a liquid at rest taken off) between the grains.
 
 Unit: (rho_s - rho_f) g D, the submerged weight per area of a layer of solid of one D, so that phi H/D would carry a
-whole column of height H. Negative values hold a packing that dilates together, positive ones carry one that
-contracts (Topin et al. 2011, section 3.3). In a closed box the level of a pressure means nothing: there it is taken
-relative to the upper right corner.
+whole column of height H; rho_s is the mean density of the grains at first. Negative values hold a packing that dilates
+together, positive ones carry one that contracts (Topin et al. 2011, section 3.3). In a closed box the level of a
+pressure means nothing: there it is taken relative to the upper right corner.
 """
 import csv
 from dataclasses import dataclass
@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import fluid_fields
+import solid
 from analysis import peaks
 from analysis import snapshots
 from analysis.once import once_per_run
@@ -32,7 +33,7 @@ class Probes:
 
 def unit(run):
     """(rho_s - rho_f) g D over rho_f [u^2]; None for grains that are not denser than the fluid."""
-    excess = float(run.case.get('grains.density_ratio', 1.0)) - 1.0
+    excess = solid.first_mean_density(run) - 1.0
     return excess * float(run.record.get('g') or 1.0) * run.scale('D') if excess > 0.0 else None
 
 
@@ -110,9 +111,10 @@ def field_probes(run):
 def extreme(run, sign):
     """Largest (sign 1) or smallest (-1) pressure at the last of the places, inside the pile, after the start."""
     found = probes(run)
-    if found is None or not run.is_avalanche() or len(found.values) < 2:
+    if found is None or not run.is_avalanche():
         return None
-    return float(sign * (sign * found.values[1:, -1]).max())
+    inside = found.values[found.time > 0.0, -1]
+    return float(sign * (sign * inside).max()) if len(inside) else None
 
 
 def while_starting(run):

@@ -38,16 +38,17 @@ def pore_curve(run):
     _, x = run.column('mean_position_x')
     if not run.is_avalanche() or len(pores) < 2 or len(x) != len(pores) or pores[0] <= 0.0 or x[0] <= 0.0:
         return None
-    there, voids = [], []
-    for snapshot in snapshots.snapshots(run):
-        mesh = packing_triangles.triangles(snapshot)
-        if mesh is not None and mesh.solid.sum() > 0.0:
-            there.append(snapshot.time)
-            voids.append(mesh.pores().sum() / mesh.solid.sum())
+    there, voids = void_ratios(run)
     moved = x / x[0] - 1.0
-    voids = np.array(voids)
-    return PoreCurve(moved, pores / pores[0] - 1.0, np.interp(there, time, moved) if there else np.empty(0),
-                     voids / voids[0] - 1.0 if len(voids) else voids)
+    return PoreCurve(moved, pores / pores[0] - 1.0, np.interp(there, time, moved), voids / voids[:1] - 1.0)
+
+
+def void_ratios(run):
+    """(times [t_c], void ratios of the whole packing) at the snapshots; none in space, where it has no triangles."""
+    meshes = [] if run.in_space() else [(one.time, packing_triangles.triangles(one)) for one in snapshots.snapshots(run)]
+    found = [(time, mesh.pores().sum() / mesh.solid.sum()) for time, mesh in meshes
+             if mesh is not None and mesh.solid.sum() > 0.0]
+    return np.array(found).reshape(-1, 2).T
 
 
 def change_at(run, displacement=AT):

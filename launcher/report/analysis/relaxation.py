@@ -45,7 +45,7 @@ def relaxation(run):
     if not run.is_avalanche():
         return None
     time, velocity = run.column(peaks.COLUMN)
-    if len(velocity) == 0 or velocity.max() < LEAST_PEAK:
+    if len(velocity) < 2 or velocity.max() < LEAST_PEAK:
         return None
     highest = int(velocity.argmax())
     rising = time[:highest + 1], velocity[:highest + 1]

@@ -35,8 +35,8 @@ class Cells:
 
 @once_per_run
 def cells(run):
-    """Of all snapshots with contacts in which grains move; None without any."""
-    if 'domain.size' not in run.case:
+    """Of all snapshots with contacts in which grains move; None without any, and in space."""
+    if 'domain.size' not in run.case or run.in_space():
         return None
     grid = coarse_grid.grid_over(run)
     parts = [part for one in snapshots.snapshots(run) for part in [of_snapshot(run, one, grid)] if part is not None]
@@ -63,19 +63,19 @@ def of_snapshot(run, snapshot, grid):
     per_gravity = velocity / np.sqrt(float(run.record.get('g') or 1.0) * diameter)  # u_c / sqrt(g D)
     inertial = rate * per_gravity / np.sqrt(pressure)
     return np.array([np.full(len(rate), snapshot.time), deviator / pressure, compacity, inertial,
-                     viscous_number(run, rate, pressure, per_gravity)])
+                     viscous_number(run, snapshot, rate, pressure, per_gravity)])
 
 
 def counts(grid, places):
     return grid.sums(places, np.ones(len(places)))
 
 
-def viscous_number(run, rate, pressure, per_gravity):
+def viscous_number(run, snapshot, rate, pressure, per_gravity):
     """eta_f rate/p = rate/(Re rho_s/rho_f p) with p in rho_s g D and the rate in u_c/D."""
     reynolds = float(run.record.get('reynolds') or 0.0)
     if not run.is_wet() or reynolds <= 0.0:
         return np.full(len(rate), np.nan)
-    return per_gravity**2 * rate / (reynolds * float(run.case.get('grains.density_ratio', 1.0)) * pressure)
+    return per_gravity**2 * rate / (reynolds * snapshot.density * pressure)
 
 
 def stress(grid, contacts, area):

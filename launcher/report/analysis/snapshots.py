@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import contact_files
 import grain_files
+import solid
 from analysis.once import once_per_run
 
 MOST_SNAPSHOTS = 41  # as many as a curve of a measurement over files has points
@@ -28,7 +28,8 @@ class Contacts:
 @dataclass
 class Snapshot:
     """Grains at one time, in space as they are seen along z. Solid areas are those of discs of the grains' circumscribed
-    radius, or of their outlines; in space they are the volumes of spheres [D^3], and forces are over rho_s g D^3."""
+    radius, or of their outlines; in space they are the volumes of spheres [D^3], and forces are over rho_s g D^3. rho_s is
+    the mean density of these grains."""
 
     time: float             # t_c
     ids: np.ndarray         # (n,)
@@ -38,7 +39,16 @@ class Snapshot:
     areas: np.ndarray       # (n,) solid [D^2]
     fluid_force: np.ndarray  # (n, 2) buoyancy apart [rho_s g D^2]; None without a fluid
     contacts: Contacts      # None where the adapter tells none
-    weights: np.ndarray = None  # (n,) submerged [rho_s g D^2], rho_s that of grains.density_ratio
+    weights: np.ndarray = None  # (n,) submerged [rho_s g D^2]
+    density: float = 1.0    # rho_s/rho_f
+    prescribed: np.ndarray = None  # (n,) bool; None: no grain is
+
+    def free(self):
+        """(n,) bool: grains whose motion is not prescribed."""
+        return np.ones(len(self.ids), bool) if self.prescribed is None else ~self.prescribed
+
+    def prescribed_ids(self):
+        return self.ids[~self.free()]
 
 
 def evenly(count, most=MOST_SNAPSHOTS):
@@ -68,34 +78,21 @@ def read_snapshot(run, time, grain_file, contact_file):
     diameter = run.scale('D')
     force = None
     if run.is_wet() and grains.forces is not None:
-        force = grains.forces / contact_files.unit_force(run)
-    radii = grains.radii / diameter
-    areas = 4.0 / 3.0 * np.pi * radii**3 if run.in_space() else solid_areas(grains, diameter)
-    return Snapshot(time / run.scale('t_c'), grains.ids, grains.centres / diameter, radii,
-                    grains.velocities / run.scale('u_c'), areas, force,
-                    read_contacts(run, contact_file) if contact_file else None,
-                    submerged_weights(run, areas, grains.densities))
+        force = grains.forces / solid.unit_force(run, grains)
+    return Snapshot(time / run.scale('t_c'), grains.ids, grains.centres / diameter, grains.radii / diameter,
+                    grains.velocities / run.scale('u_c'), solid.volumes(run, grains), force,
+                    read_contacts(run, contact_file, solid.unit_force(run, grains)) if contact_file else None,
+                    submerged_weights(run, grains), solid.mean_density(run, grains), grains.prescribed)
 
 
-def submerged_weights(run, areas, densities):
-    """(rho - rho_f) A over rho_s D^2, with the densities of the single grains where the file has them; rho_f is 0 in
-    dry runs."""
-    fluid, ratio = float(run.record.get('rho') or 1.0), float(run.case.get('grains.density_ratio', 1.0))
-    own = np.full(len(areas), ratio) if densities is None else densities / fluid
-    return areas * (own - (1.0 if run.is_wet() else 0.0)) / ratio
+def submerged_weights(run, grains):
+    """(rho - rho_f) V of each grain over rho_s D^2, in space rho_s D^3; rho_f is 0 in dry runs."""
+    own, fluid = solid.densities(run, grains), 1.0 if run.is_wet() else 0.0
+    return solid.volumes(run, grains) * (own - fluid) / solid.mean_density(run, grains)
 
 
-def solid_areas(grains, diameter):
-    """Areas of discs, or of the outlines of polygons [D^2]."""
-    areas = np.pi * (grains.radii / diameter)**2
-    for i, corners in (grains.outlines or {}).items():
-        x, y = corners.T / diameter
-        areas[i] = 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
-    return areas
-
-
-def read_contacts(run, path):
+def read_contacts(run, path, unit_force):
     arrays = grain_files.read_arrays(path)
     return Contacts(arrays['id_a'].astype(np.int64), arrays['id_b'].astype(np.int64),
                     grain_files.in_plane(arrays['Points']).reshape(-1, 2, 2) / run.scale('D'),
-                    grain_files.in_plane(arrays['force']) / contact_files.unit_force(run))
+                    grain_files.in_plane(arrays['force']) / unit_force)

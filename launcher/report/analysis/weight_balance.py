@@ -7,12 +7,14 @@ At a level y, of all grains whose centres are above it,
 
 N the vertical force that contacts hand up through the level (those between a grain above and one below or the floor,
 and those of the grains above with side walls), F the vertical force of the liquid on them, buoyancy apart, W their
-submerged weight. Forces are in units of the submerged weight of all grains.
+submerged weight. Forces are in units of the submerged weight of all grains. Grains with a prescribed motion are no part
+of the balance: they carry the others as walls do.
 """
 from dataclasses import dataclass
 
 import numpy as np
 
+import solid
 from analysis import snapshots
 from analysis.once import once_per_run
 
@@ -31,8 +33,8 @@ class Profile:
 
 
 def submerged_share(run):
-    """1 - rho_f/rho_s in a fluid, 1 in dry runs."""
-    return 1.0 - 1.0 / float(run.case.get('grains.density_ratio', 1.0)) if run.is_wet() else 1.0
+    """1 - rho_f/rho_s in a fluid, 1 in dry runs; rho_s of the grains at first."""
+    return 1.0 - 1.0 / solid.first_mean_density(run) if run.is_wet() else 1.0
 
 
 def weights_of(run, snapshot):
@@ -40,17 +42,23 @@ def weights_of(run, snapshot):
     return snapshot.areas * submerged_share(run) if snapshot.weights is None else snapshot.weights
 
 
+def on_free(run, snapshot):
+    """(heights [D], submerged weights, vertical forces of the liquid [rho_s g D^2]) of the free grains."""
+    free = snapshot.free()
+    lift = np.zeros(len(free)) if snapshot.fluid_force is None else snapshot.fluid_force[:, 1]
+    return snapshot.centres[free, 1], weights_of(run, snapshot)[free], lift[free]
+
+
 def profile(run, snapshot):
     """None without contacts, or for grains that weigh nothing in the fluid."""
-    weights = weights_of(run, snapshot)
-    if snapshot.contacts is None or not weights.sum() > 0.0:
-        return None
-    level = np.arange(0.0, snapshot.centres[:, 1].max(), LEVELS)
-    heights = snapshot.centres[:, 1]
-    lift = np.zeros(len(heights)) if snapshot.fluid_force is None else snapshot.fluid_force[:, 1]
+    heights, weights, lift = on_free(run, snapshot)
     total = weights.sum()
+    if snapshot.contacts is None or not total > 0.0:
+        return None
+    level = np.arange(0.0, heights.max(), LEVELS)
     return Profile(snapshot.time, level, above(level, heights, weights) / total,
-                   handed_up(snapshot.contacts, level) / total, above(level, heights, lift) / total)
+                   handed_up(snapshot.contacts, level, snapshot.prescribed_ids()) / total,
+                   above(level, heights, lift) / total)
 
 
 def above(level, heights, values):
@@ -60,26 +68,45 @@ def above(level, heights, values):
     return sums[np.searchsorted(heights[order], level, side='right')]
 
 
-def handed_up(contacts, level):
-    """Vertical force on the bodies above each level by contacts with what is not above it."""
-    upper = contacts.ends[:, 1, 1]  # centre of b
-    lower = np.where(contacts.first < 0, -np.inf, contacts.ends[:, 0, 1])  # walls are above no level
+def handed_up(contacts, level, prescribed=()):
+    """Vertical force on the free bodies above each level by contacts with what is not above it. Walls and the grains with
+    `prescribed` ids are above no level."""
+    held_a, held_b = held(contacts, prescribed)
+    upper = np.where(held_b, -np.inf, contacts.ends[:, 1, 1])  # centre of b
+    lower = np.where(held_a, -np.inf, contacts.ends[:, 0, 1])
     force = contacts.force[:, 1]    # on b; -force on a
     return above(level, upper, force) - above(level, lower, force)
 
 
+def held(contacts, prescribed):
+    """(a, b) of each contact: a wall, or a grain with one of these ids."""
+    return (contacts.first < 0) | np.isin(contacts.first, prescribed), np.isin(contacts.second, prescribed)
+
+
+def supports(contacts, prescribed):
+    """Vertical forces on the free grains by the bottom wall, by other walls, and by grains with these ids."""
+    force, (held_a, held_b) = contacts.force[:, 1], held(contacts, prescribed)
+    floor, wall = contacts.first == FLOOR, contacts.first < 0
+    return (force[floor & ~held_b].sum(), force[wall & ~floor & ~held_b].sum(),
+            force[held_a & ~wall & ~held_b].sum() - force[~held_a & held_b].sum())
+
+
 @dataclass
 class Carriers:
-    """Shares of the submerged weight of all grains, over the snapshots with contacts."""
+    """Shares of the submerged weight of the grains whose motion is not prescribed, over the snapshots with contacts."""
 
     time: np.ndarray
     floor: np.ndarray
     sides: np.ndarray
+    prescribed: np.ndarray  # grains with a prescribed motion
     fluid: np.ndarray
+
+    def contacts(self):
+        return self.floor + self.sides + self.prescribed
 
     def rest(self):
         """What is carried by nothing: it accelerates the grains downwards."""
-        return 1.0 - self.floor - self.sides - self.fluid
+        return 1.0 - self.contacts() - self.fluid
 
 
 @once_per_run
@@ -87,26 +114,23 @@ def carriers(run):
     """None without contacts in the outputs."""
     rows = []
     for one in snapshots.snapshots(run):
-        total = weights_of(run, one).sum()
-        if one.contacts is None or not total > 0.0:
+        _, weights, lift = on_free(run, one)
+        if one.contacts is None or not weights.sum() > 0.0:
             continue
-        floor = one.contacts.force[one.contacts.first == FLOOR, 1].sum()
-        sides = one.contacts.force[(one.contacts.first < 0) & (one.contacts.first != FLOOR), 1].sum()
-        lift = 0.0 if one.fluid_force is None else one.fluid_force[:, 1].sum()
-        rows.append((one.time, floor / total, sides / total, lift / total))
+        forces = np.array([*supports(one.contacts, one.prescribed_ids()), lift.sum()])
+        rows.append((one.time, *forces / weights.sum()))
     return Carriers(*np.array(rows).T) if rows else None
 
 
 def final_defect(run):
     """|1 - what carries the weight| at the last output of grains at rest (mean speed below 1e-3 u_c); else None."""
-    found = carriers(run)
-    _, speed = run.column('mean_speed')
-    if found is None or not len(speed) or speed[-1] > SETTLED:
+    found, speed = carriers(run), run.end('mean_speed')
+    if found is None or speed is None or speed > SETTLED:
         return None
     return float(abs(found.rest()[-1]))
 
 
 def least_on_contacts(run):
-    """Smallest share of the weight on floor and walls after the start of an avalanche."""
+    """Smallest share of the weight on floor, walls and prescribed grains after the start of an avalanche."""
     found = carriers(run)
-    return float((found.floor + found.sides).min()) if found is not None and run.is_avalanche() else None
+    return float(found.contacts().min()) if found is not None and run.is_avalanche() else None

@@ -33,7 +33,7 @@ def mean(time, values, begin, end):
 
 # Name: (function of times and values, how many times it takes).
 CALLS = {
-    'end': (lambda time, values: values[-1], 0),
+    'end': (None, 0),  # of the last row, which may be empty
     'max': (lambda time, values: values.max(), 0),
     'min': (lambda time, values: values.min(), 0),
     'at': (at, 1),
@@ -58,6 +58,8 @@ def quantity(text):
 
 
 def of_column(run, column, measure, times):
+    if measure is None:
+        return run.end(column)
     time, values = run.column(column)
     return float(measure(time, values, *times)) if len(values) else None
 

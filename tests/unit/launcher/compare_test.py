@@ -22,12 +22,20 @@ class Differences(unittest.TestCase):
         fine = np.linspace(1, 3, 401), 3 * np.linspace(1, 3, 401)
         apart = difference(coarse, fine)
         self.assertEqual((apart.begin, apart.end), (1, 3))
-        # Trapezoids of width h = 0.005 are h^2/12 (f'(3) - f'(1)) / 2 = 4e-6 too large.
-        self.assertAlmostEqual(apart.rms**2, 13.0 / 3.0, places=5)
+        self.assertAlmostEqual(apart.rms**2, 13.0 / 3.0, places=12)
         self.assertAlmostEqual(apart.largest, 3.0)
         self.assertAlmostEqual(apart.mean, 2.0)  # int_1^3 t dt / 2
         self.assertAlmostEqual(apart.scale, 6.0)
         self.assertAlmostEqual(apart.relative(apart.largest), 0.5)
+
+    def test_another_output_interval_changes_nothing(self):
+        # The difference runs straight from -1 to 3 in 4 t_c: rms^2 = 28/12, mean of the size (0.5 + 4.5)/4.
+        zero = np.array([0.0, 4.0]), np.zeros(2)
+        for rows in (2, 3, 8, 41):
+            times = np.linspace(0.0, 4.0, rows)
+            apart = difference(zero, (times, times - 1.0))
+            self.assertAlmostEqual(apart.rms**2, 28.0 / 12.0, places=12)
+            self.assertAlmostEqual(apart.mean, 1.25, places=12)
 
     def test_of_a_curve_from_itself_is_zero(self):
         curve = np.array([0.0, 1.0, 2.5]), np.array([1.0, -3.0, 2.0])
@@ -162,6 +170,11 @@ class Compare(RunFolderTest):
                              for t in range(5)))
         self.write(f'{name}/run.json', json.dumps(
             {'status': 'done', 'maxima': {'penetration': 1e-4 * scale, 'unconverged_windows': seed}}))
+
+    def test_an_empty_last_row_has_no_end_value(self):
+        data = run_data.RunData('nowhere', history={'time': np.arange(3.0), 'front_x': np.array([1.0, 2.0, np.nan])})
+        member = seeds.Member('one', data, [data])
+        self.assertIsNone(compare.numbers(member, member, 'front_x')['end_value'])
 
     def test_seeds_are_averaged(self):
         for seed, scale in ((1, 1.0), (2, 2.0), (3, 3.0)):

@@ -63,7 +63,9 @@ class Quantities(RunFolderTest):
     def test_of_columns(self):
         self.assertEqual([self.of(f'{name}(mean_speed)') for name in ('end', 'max', 'min')], [4.0, 5.0, 1.0])
         self.assertEqual((self.of('at(mean_speed, 2)'), self.of('mean(mean_speed, 1, 2)')), (2.0, 3.5))
-        self.assertEqual(self.of('end(mean_position_y)'), 1.0)      # the last row that has one
+        self.assertEqual(self.of('end(mean_position_y)'), 1.0)
+        self.run_data.history['mean_position_y'][-1] = float('nan')
+        self.assertIsNone(self.of('end(mean_position_y)'))          # the last row has none
         self.assertIsNone(self.of('end(gone)'))
         for text in ('at(mean_speed, 1.5)', 'mean(mean_speed, 7, 9)'):
             with self.assertRaisesRegex(ValueError, 'no row'):

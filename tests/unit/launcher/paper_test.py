@@ -86,7 +86,8 @@ def dry(at=lambda phi: 9.0, height=lambda phi: 1.0, rest=0.0, seeds=(0.0, 0.25),
 
 
 def heap(foot, first=25.0, right=100):
-    return deposit.Deposit(20.0, np.arange(right) + 0.5, np.zeros(right), first, foot, 10.0, None, None)
+    x = np.arange(right) + 0.5
+    return deposit.Deposit(20.0, x, np.where(x < foot, 10.0, 0.0), first, foot, 10.0, None, None)
 
 
 def packing(time, columns, velocities):

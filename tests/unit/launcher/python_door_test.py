@@ -174,6 +174,31 @@ class Grains(Door):
         self.assertIn('orientation_w', table.columns)
         self.assertNotIn('velocity_z', table.columns)
 
+    def test_an_empty_box_keeps_its_shapes(self):
+        self.write('grains/empty.vtp', grain_file([], *3 * [np.empty((0, 3))]))
+        self.write('grains/grains.pvd', series((0, 'a.vtp'), (0.02, 'empty.vtp')))
+        grains = turbidite.load(self.folder).grains
+        shapes = {name: values.shape for name, values in grains[1].items()}
+        self.assertEqual(shapes, {name: (0, *values.shape[1:]) for name, values in grains[0].items()})
+        self.assertEqual(shapes['velocity'], (0, 2))
+        ids, positions = grains.over_time('position')
+        self.assertEqual((ids.tolist(), positions.shape), ([4, 9], (2, 2, 2)))
+        self.assertTrue(np.isnan(positions[1]).all())
+        with mock.patch.dict(sys.modules, {'pandas': None}):
+            self.assertEqual(grains[1].table().columns, grains[0].table().columns)
+            self.assertEqual(len(grains[1].table()), 0)
+
+    def test_an_output_without_contacts_keeps_its_shapes(self):
+        cells = lambda count: (array('id_a', np.full(count, -3), 1) + array('id_b', np.full(count, 4), 1)
+                               + array('normal_force', np.ones(count), 1) + array('force', np.ones((count, 3))))
+        for count in (0, 1):
+            self.write(f'grains/c{count}.vtp', poly_data(np.zeros((2 * count, 3)), '', '', cells(count)))
+        self.write('grains/contacts.pvd', series((0, 'c0.vtp'), (0.02, 'c1.vtp')))
+        none, one = turbidite.load(self.folder).contacts
+        self.assertEqual([none[name].shape for name in ('id_a', 'force', 'ends')], [(0,), (0, 2), (0, 2, 2)])
+        with mock.patch.dict(sys.modules, {'pandas': None}):
+            self.assertEqual(none.table().columns, one.table().columns)
+
     def test_an_index_that_is_being_written(self):
         self.write('grains/grains.pvd', '<VTKFile><Coll')
         with self.assertRaisesRegex(turbidite.NotThere, 'at work'):
@@ -192,6 +217,19 @@ class Grains(Door):
         np.testing.assert_allclose(contacts[0]['normal_force'], 12.5 / (1000 * 25 * 0.01**2))
         with mock.patch.dict(sys.modules, {'pandas': None}):
             self.assertEqual(contacts[0].table()['end_y'].tolist(), [0.5])
+
+
+    def test_forces_of_contacts_are_over_the_mean_density_of_the_grains(self):
+        """Of all that are there: 3 and 5 times that of the liquid, then 3 alone."""
+        cells = array('id_a', np.array([-3]), 1) + array('id_b', np.array([4]), 1) + array('normal_force', [12.5], 1)
+        for name, densities in (('a', [5000.0, 3000.0]), ('b', [3000.0])):
+            file = self.folder / f'grains/{name}.vtp'
+            file.write_text(file.read_text().replace('<PointData>', '<PointData>' + array('density', densities, 1)))
+            self.write(f'grains/c{name}.vtp', poly_data(np.array([[0.03, 0, 0], [0.03, 0.005, 0]]), '', '', cells))
+        self.write('grains/contacts.pvd', series((0, 'ca.vtp'), (0.02, 'cb.vtp')))
+        run, weight = turbidite.load(self.folder), 1000 * 25 * 0.01**2
+        np.testing.assert_allclose(run.grains[0]['contact_force'][0, 0], 0.5 / (4 * weight))
+        np.testing.assert_allclose([one['normal_force'][0] for one in run.contacts], 12.5 / weight / np.array([4, 3]))
 
 
 class Fields(Door):

@@ -341,6 +341,32 @@ class Report(RunFolderTest):
         self.assertAlmostEqual(found.slope, 0.1)
         self.assertIsNone(relaxation.steepest(time[:3], time[:3], 1.0))  # shorter than the fit
 
+    def test_nothing_is_told_of_the_end_where_the_last_row_is_empty(self):
+        """All grains have left: contacts, front and means are those of no row but the last."""
+        self.write_all()
+        self.write('history.csv', 'step,time,mean_speed,mean_position_y,front_x,grains,coordination,sliding_share,pore_volume\n'
+                   '0,0,2,3,2,2,,,5\n10,1,1,2,3,1,0.5,1,4\n20,2,0.01,1,4,1,0.5,1,4\n30,3,,,,0,,,\n')
+        run = run_data.load_run(self.folder)
+        told = ' '.join((captions.packing(run), captions.contact_statistics(run), captions.settling(run),
+                         captions.front_caption(run), captions.rest(run)))
+        for words in ('Sliding', 'Coordination', 'Mean position', 'Front', 'est at the end', 'Pores'):
+            self.assertNotIn(words, told)
+        self.assertIsNone(findings.rest_time(run))
+        run.history = {name: values[:3] for name, values in run.history.items()}
+        told = captions.packing(run) + captions.contact_statistics(run) + captions.front_caption(run)
+        for words in ('Sliding contacts at the end: 100 %', 'Coordination at the end: 0.5', 'to 4 D'):
+            self.assertIn(words, told)
+        self.assertEqual(findings.rest_time(run), 2.0)
+
+    def test_a_run_that_ended_after_one_row_has_a_report(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche'))
+        self.write('history.csv', 'step,time,mean_velocity_norm,mean_speed,front_x\n1,0.1,0.5,0.5,2\n')
+        self.write('grains/grains.pvd', '<VTKFile><Collection><DataSet timestep="0" part="0" '
+                   'file="grains_00000000.vtp"/></Collection></VTKFile>')
+        self.assertIsNone(relaxation.relaxation(run_data.load_run(self.folder)))
+        self.assertNotIn('cannot be', self.make())
+
     def test_there_is_no_relaxation_time_without_a_slide(self):
         self.write_all()
         creep = 'step,time,mean_velocity_norm\n' + ''.join(f'{n},{n},{0.009 * n}\n' for n in range(11))
