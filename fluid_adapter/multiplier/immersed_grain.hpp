@@ -37,7 +37,8 @@ struct ImmersedGrain {
     /// rho_f (V(R) - V(R_h)) a dt: a body force a on the fluid acts on all cells of V(R_h), the
     /// mean pressure gradient that it stands for on V(R). None where the motion is prescribed.
     Vec3 driving_impulse{};
-    FluidBeyond beyond{};  ///< of a grain that leaves; moves as contact_motion
+    FluidBeyond beyond{};   ///< of a grain that leaves
+    Twist motion_before{};  ///< U^n, omega^n, with which the fluid beyond moves
 
     /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h, the driving
     /// impulse, and the momentum of the fluid beyond a free side. J_h is already contained in
@@ -45,8 +46,8 @@ struct ImmersedGrain {
     Impulse momentum() const {
         const Impulse own{effective_mass * contact_motion.velocity,
                           effective_inertia * contact_motion.spin};
-        return own + beyond.momentum(contact_motion) + given_impulse +
-               Impulse{driving_impulse, {}} - announced_impulse;
+        return own + beyond.momentum(motion_before) + given_impulse + Impulse{driving_impulse, {}} -
+               announced_impulse;
     }
 };
 

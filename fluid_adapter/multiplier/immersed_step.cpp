@@ -121,8 +121,8 @@ void ImmersedStep::take_free(const std::vector<GrainState>& states, const Window
     take(states, window);
     for (std::size_t g = 0; g < states.size(); ++g) {
         Impulse& given = grains_[g].given_impulse;
-        // (M - m_f) g dt: buoyancy is that of R, not of R_h.
-        given.linear[1] = -bodies_(states[g]).submerged_mass * run_.gravity * window.step;
+        given = weight(states[g], window.step);
+        grains_[g].motion_before = grains_[g].contact_motion;
         if (!carries_contacts_) continue;
         // J^n of the last window, a prediction: `push` adds the difference to this window's.
         contact_impulses_[g] = contact_impulse(states[g]);
@@ -138,7 +138,23 @@ void ImmersedStep::take_constrained(const std::vector<GrainState>& states, const
         // ImmersedGrain::momentum.
         contact_impulses_[g] = contact_impulse(state);
         grains_[g].announced_impulse = {state.announced_impulse, state.announced_angular_impulse};
+        if (grains_[g].beyond.mass > 0.0)
+            grains_[g].motion_before = before_contacts(grains_[g], state, window.step);
     }
+}
+
+/// (M - m_f) g dt: buoyancy is that of R, not of R_h.
+Impulse ImmersedStep::weight(const GrainState& state, double step) const {
+    return {{0.0, -bodies_(state).submerged_mass * run_.gravity * step, 0.0}, {}};
+}
+
+/// U^n of cM (U^{n+4/5} - U^n) = (M - m_f) g dt + J_c + J_h, and the same of the spin. cM > 0
+/// where contacts come first.
+Twist ImmersedStep::before_contacts(const ImmersedGrain& grain, const GrainState& state,
+                                    double step) const {
+    const Impulse gained = weight(state, step) + contact_impulse(state) + grain.announced_impulse;
+    return {grain.contact_motion.velocity - gained.linear / grain.effective_mass,
+            grain.contact_motion.spin - gained.moment / grain.effective_inertia};
 }
 
 MultiplierResult ImmersedStep::solve() {
@@ -240,7 +256,7 @@ std::vector<Kick> ImmersedStep::kicks() const {
         // The driving impulse is in the momentum of step 5, so the balance of the grain needs it
         // here. The fluid has not lost it: impulse_to_grains is without.
         // Nor has it what the fluid beyond a free side loses.
-        const Impulse beyond = grains_[g].beyond.momentum(grains_[g].contact_motion) -
+        const Impulse beyond = grains_[g].beyond.momentum(grains_[g].motion_before) -
                                grains_[g].beyond.momentum(motion);
         kick.multiplier_impulse = impulse.linear + beyond.linear + grains_[g].driving_impulse;
         kick.multiplier_angular_impulse = impulse.moment + beyond.moment;

@@ -71,6 +71,8 @@ class ImmersedStep {
  private:
     ImmersedGrain immersed(const GrainState& state) const;
     Vec3 driving(const GrainState& state, double step) const;
+    Impulse weight(const GrainState& state, double step) const;
+    Twist before_contacts(const ImmersedGrain& grain, const GrainState& state, double step) const;
     void take(const std::vector<GrainState>& states, const Window& window);
     void prescribe(const Window& window);
     bool answers_for(std::size_t grain) const;

@@ -298,5 +298,33 @@ TEST(ImmersedStep, AGrainOnItsWayOutKeepsItsInertia) {
     }
 }
 
+// The same after a contact solve, which has moved cM alone.
+TEST(ImmersedStep, AGrainOnItsWayOutMovesAlikeBeforeAndAfterContacts) {
+    const Planar stream(0.2, -0.1, 0.0);
+    for (const double x : {5.7, 6.3}) {
+        MemoryField free_field(96, 96, Side::open), field(96, 96, Side::open);
+        for (MemoryField* of : {&free_field, &field})
+            of->fill([&](double, double) { return stream; });
+        ImmersedStep free(free_field, settings(1e-7), {{"disc", {}}});
+        ImmersedStep constrained(field, settings(1e-7), {{"disc", {}}});
+        GrainState state = grain(9, x, 3.0, {0.2, -0.1, 0.0});
+        free.take_free({state}, window);
+        free.solve();
+        free.impose();
+        state.velocity[1] -= step;  // (M - m_f) g dt/cM, with R_h = R
+        constrained.take_constrained({state}, window);
+        constrained.solve();
+        constrained.impose();
+        const Kick expected = free.kicks().at(0), found = constrained.kicks().at(0);
+        for (int axis : {0, 1}) {
+            EXPECT_NEAR(found.velocity[axis], expected.velocity[axis], 1e-6) << x;
+            EXPECT_NEAR(found.multiplier_impulse[axis], expected.multiplier_impulse[axis], 1e-6)
+                << x;
+        }
+        // It has fallen by less than cM alone would.
+        EXPECT_GT(found.velocity[1], -0.1 - 0.6 * step) << x;
+    }
+}
+
 }  // namespace
 }  // namespace turbidite

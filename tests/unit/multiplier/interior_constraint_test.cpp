@@ -366,7 +366,7 @@ struct Carried {
         ImmersedGrain grain = sphere(1, {x, 1.5, 1.0}, 0.5, density_ratio);
         const ImmersedBody body = immersed_body(*grain.shape, 0.5, density_ratio, 1.0, 1.0);
         mass = body.mass;
-        grain.contact_motion = {{0.3, -0.4, 0.1}, {}};
+        grain.contact_motion = grain.motion_before = {{0.3, -0.4, 0.1}, {}};
         grain.given_impulse.linear[1] = -0.01;
         grain.beyond = fluid_beyond(field.grid(), grain, body.displaced_mass);
         grains = {grain};
@@ -410,7 +410,7 @@ TEST(InteriorConstraint, FluidBeyondASideHasAMomentumOfItsOwn) {
     const ImmersedGrain& grain = scene.grains[0];
     const Twist motion = constraint.motion(0);
     const Impulse beyond =
-        grain.beyond.momentum(grain.contact_motion) - grain.beyond.momentum(motion);
+        grain.beyond.momentum(grain.motion_before) - grain.beyond.momentum(motion);
     const Vec3 change = motion.velocity - grain.contact_motion.velocity;
     const Vec3 impulse = constraint.impulse(0).linear + beyond.linear + grain.given_impulse.linear;
     EXPECT_LT(norm(grain.effective_mass * change - impulse), 1e-14);
