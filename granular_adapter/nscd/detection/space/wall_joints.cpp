@@ -59,6 +59,9 @@ WallJoints::WallJoints(const std::vector<Wall>& walls) {
 void WallJoints::join_pair(const std::vector<Wall>& walls, std::size_t i, std::size_t j) {
     const Wall &own = walls[i], &other = walls[j];
     const double tolerance = same_rim * std::max(size_of(own), size_of(other));
+    // Of two walls of different thickness the thicker one ends at the rim, with a round edge that
+    // only its own point has.
+    if (std::abs(own.half_thickness - other.half_thickness) > tolerance) return;
     if (!same_axis(own, other, tolerance)) return;
     const OnAxis on{dot(other.point - own.point, own.normal),
                     dot(own.normal, other.normal) > 0.0 ? 1.0 : -1.0};
