@@ -75,6 +75,10 @@ bool shape_is_round(const Settings& s) {
     return is(s, "grains.shape", "disc") || is(s, "grains.shape", "sphere");
 }
 
+bool has_films(const Settings& s) {
+    return in_space(s) && s.flag("fluid.enabled") && s.text("contact.film") != "none";
+}
+
 Ruling corners_do_not_roll(const Settings& s) {
     const std::string key = positive_coefficient(s, "rolling_friction");
     if (key.empty()) return std::nullopt;
