@@ -42,6 +42,19 @@ std::optional<Objection> unknown_material(const std::string& pair,
     return std::nullopt;
 }
 
+/// Key groups below contact.pairs: a pair may be written in either order, but not in both.
+std::optional<Objection> written_twice(const std::string& pair, const std::set<std::string>& seen) {
+    const auto dash = pair.find('-');
+    if (dash == std::string::npos) return std::nullopt;
+    const std::string first = pair.substr(0, dash), second = pair.substr(dash + 1);
+    const std::string other = pair_prefix + second + "-" + first;
+    if (first == second || !seen.contains(other)) return std::nullopt;
+    return Objection{
+        fmt::format("{} and {}{} are one pair: either would hide what the other gives.", other,
+                    pair_prefix, pair),
+        fmt::format("Write all of its coefficients below {}.", other)};
+}
+
 /// The surface of a material or a pair; values it does not give are those of contact.*.
 std::optional<Objection> unfit(const Settings& s, const std::string& group) {
     const double sliding = given(s, group + ".friction", fallback(s, "friction"));
@@ -89,6 +102,7 @@ CaseProblems check_materials(const Settings& settings, const CaseEntries& entrie
                             adapters_that([](const GrainsAdapter& a) { return a.materials; }))};
         else if (!pair.empty())
             objection = unknown_material(pair, names);
+        if (!objection && !pair.empty()) objection = written_twice(pair, seen);
         if (!objection && settings.has("contact.law")) objection = unfit(settings, group);
         if (objection) problems.push_back(problem_with(key, *objection, settings, entries));
     }

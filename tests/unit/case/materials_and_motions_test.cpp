@@ -98,6 +98,17 @@ TEST_F(RichCase, MaterialsMustFitTogether) {
     EXPECT_SAYS(refusal("", {"grains.adapter=yade-md"}), "yade-md supports free grains only");
 }
 
+// Of a pair in both orders one would win as a whole.
+TEST_F(RichCase, APairIsWrittenInOneOrder) {
+    const std::string text = refusal("", {"contact.pairs.rubber-steel.restitution=0.3"});
+    EXPECT_SAYS(text, "contact.pairs.steel-rubber.friction = 0.5");
+    EXPECT_SAYS(text, "contact.pairs.rubber-steel and contact.pairs.steel-rubber are one pair");
+    EXPECT_SAYS(text, "Write all of its coefficients below contact.pairs.rubber-steel.");
+    EXPECT_EQ(refusal("", {"contact.pairs.steel-rubber.restitution=0.3",
+                           "contact.pairs.steel-steel.friction=0.2"}),
+              "");
+}
+
 class MovingWalls : public CaseTest {
  protected:
     MovingWalls()
