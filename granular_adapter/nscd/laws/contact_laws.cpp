@@ -52,6 +52,19 @@ Film film_in(const FilmTerms& terms, double normal_bias, double step) {
     return {terms.coefficient, gap, terms.cutoff / step, gap - normal_bias};
 }
 
+/// The surface with another sliding friction, that of a wall without a material: static friction is
+/// as many times larger as it was, so that a wall with mu = 0 is smooth.
+Surface with_friction(Surface surface, double friction) {
+    if (friction == surface.friction) return surface;
+    // mu_s' = mu' mu_s/mu; the ratio, which is at least 1, comes first, so that rounding never
+    // makes mu_s' < mu'.
+    surface.static_friction = surface.friction > 0.0
+                                  ? friction * (surface.static_friction / surface.friction)
+                                  : std::max(surface.static_friction, friction);
+    surface.friction = friction;
+    return surface;
+}
+
 const Wall& wall_of(const DetectedContacts& contacts, const ContactPoint& point) {
     return contacts.walls[static_cast<std::size_t>(point.wall)];
 }
@@ -136,11 +149,7 @@ Surface ContactLaws::surface(const DetectedContacts& contacts, const ContactPoin
     if (point.wall < 0) return surfaces_.pair(own, contacts.bodies.material[point.a]);
     const Wall& wall = wall_of(contacts, point);
     if (wall.material >= 0) return surfaces_.pair(own, wall.material);
-    Surface result = surfaces_.pair(own, own);
-    result.friction = wall.friction;
-    // Static friction must not be below sliding friction, which is the wall's here.
-    result.static_friction = std::max(result.static_friction, wall.friction);
-    return result;
+    return with_friction(surfaces_.pair(own, own), wall.friction);
 }
 
 ContactSituation ContactLaws::situation(const DetectedContacts& contacts,
