@@ -16,11 +16,6 @@ constexpr double same_rim = 1e-9;
 // that rounding never leaves none.
 constexpr double no_nearer = 1e-9;
 
-double size_of(const Wall& wall) {
-    const auto& [p, q] = wall.meridian;
-    return std::max({p.radius, q.radius, std::abs(q.height - p.height)});
-}
-
 /// Heights along the axis of `from` are base + sense * height of `wall`.
 struct OnAxis {
     double base, sense;
