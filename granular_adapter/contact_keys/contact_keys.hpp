@@ -25,6 +25,9 @@ bool shape_is_round(const Settings& settings);
 /// What is said of grains with corners; nothing where no key gives a rolling resistance.
 Ruling corners_do_not_roll(const Settings& settings);
 
+/// Whether contacts have films of liquid, of keys that only a case file has.
+bool has_films(const Settings& settings);
+
 /// All groups in one table.
 KeyTable contact_key_table();
 

@@ -25,10 +25,12 @@ Ruling sliding_holds_less(const Settings& s) {
 }
 
 Ruling moreau_has_one_restitution(const Settings& s) {
-    if (s.text("contact.impact") != "moreau" || s.real("contact.restitution_tangential") == 0.0)
-        return std::nullopt;
-    return Objection{"With contact.impact: moreau, one restitution applies to both directions.",
-                     "Remove it, or use contact.impact: newton."};
+    const std::string key = positive_coefficient(s, "restitution_tangential");
+    if (s.text("contact.impact") != "moreau" || key.empty()) return std::nullopt;
+    return Objection{fmt::format("With contact.impact: moreau, one restitution applies to both "
+                                 "directions, but {} = {}.",
+                                 key, s.text(key)),
+                     fmt::format("Remove {}, or use contact.impact: newton.", key)};
 }
 
 Ruling only_discs_resist_rolling(const Settings& s) {
@@ -73,6 +75,10 @@ void law_notes(const Settings& s, std::vector<std::string>& notes) {
 
 bool shape_is_round(const Settings& s) {
     return is(s, "grains.shape", "disc") || is(s, "grains.shape", "sphere");
+}
+
+bool has_films(const Settings& s) {
+    return in_space(s) && s.flag("fluid.enabled") && s.text("contact.film") != "none";
 }
 
 Ruling corners_do_not_roll(const Settings& s) {
@@ -197,8 +203,8 @@ KeyGroup contact_law_keys() {
                  .idle = without_bonds},
             },
         .rules = {{"contact.static_friction", {"contact.friction"}, sliding_holds_less},
-                  {"contact.restitution_tangential",
-                   {"contact.impact"},
+                  {"contact.impact",
+                   {"contact.restitution_tangential"},
                    moreau_has_one_restitution},
                   {"grains.shape", {"contact.rolling_friction"}, only_discs_resist_rolling},
                   {"contact.adhesion_range", {"contact.adhesion"}, range_of_neighbours}},

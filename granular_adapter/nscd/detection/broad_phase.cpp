@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "coupler/shapes/shortest_period.hpp"
+
 namespace turbidite::nscd {
 namespace {
 
@@ -200,21 +202,20 @@ std::vector<Pair> candidate_pairs(const std::vector<Vec3>& x, const std::vector<
     return pairs;
 }
 
-void check_periods(const std::vector<double>& radii, const PeriodicBox& box) {
-    // The two largest radii, r_1 >= r_2. Their bodies touch on both sides where d <= r_1 + r_2 and
-    // L - d <= r_1 + r_2, that is only if L <= 2 (r_1 + r_2).
-    double first = 0.0, second = 0.0;
-    for (const double radius : radii) {
-        second = std::max(second, std::min(first, radius));
-        first = std::max(first, radius);
-    }
-    const double least = 2.0 * (first + second);
+void check_periods(const std::vector<double>& radii, const std::vector<std::uint8_t>& fixed,
+                   double range, const PeriodicBox& box) {
+    ShortestPeriod shortest;
+    for (std::size_t i = 0; i < radii.size(); ++i) shortest.add(radii[i], fixed[i] != 0);
     for (int axis = 0; axis < 3; ++axis)
-        if (box.repeats(axis) && box.length[axis] < least)
+        if (box.repeats(axis) && !shortest.allows(box.length[axis], range))
             throw std::invalid_argument(
                 "the domain repeats after " + std::to_string(box.length[axis]) + " along axis " +
-                std::to_string(axis) + ": two grains could touch on both sides; make it at least " +
-                std::to_string(least));
+                std::to_string(axis) +
+                (shortest.pair() > 0.0
+                     ? ": two grains could touch, or attract each other, on both sides; make it "
+                       "more than "
+                     : ": a grain would overlap with itself; make it at least ") +
+                std::to_string(shortest.length(range)));
 }
 
 }  // namespace turbidite::nscd

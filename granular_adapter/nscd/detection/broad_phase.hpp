@@ -25,8 +25,10 @@ std::vector<Pair> candidate_pairs(const std::vector<Vec3>& positions,
                                   const std::vector<double>& radii, double alert,
                                   const PeriodicBox& box);
 
-/// Throws std::invalid_argument if the period of an axis is so short that two bodies could touch on
-/// both sides: the minimum image sees only one contact.
-void check_periods(const std::vector<double>& radii, const PeriodicBox& box);
+/// Throws std::invalid_argument if the period of an axis is so short that two bodies, not both
+/// fixed, could touch on both sides, or come within the range of the law [m] there: the minimum
+/// image sees only one contact.
+void check_periods(const std::vector<double>& radii, const std::vector<std::uint8_t>& fixed,
+                   double range, const PeriodicBox& box);
 
 }  // namespace turbidite::nscd

@@ -112,10 +112,11 @@ StepReport Engine::solve_step(const std::vector<Twist>& free, Mobilities mobilit
 }
 
 void Engine::check_periods() {
+    const double range = laws_.law().range();
     if (shared_.ranks)
-        shared_.ranks->check_periods(bodies_, settings_.box);
+        shared_.ranks->check_periods(bodies_, range, settings_.box);
     else
-        nscd::check_periods(bodies_.radius, settings_.box);
+        nscd::check_periods(bodies_.radius, bodies_.fixed, range, settings_.box);
 }
 
 /// How far surfaces can approach each other (reach.hpp), over all ranks.

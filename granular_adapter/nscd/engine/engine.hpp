@@ -122,7 +122,7 @@ class Engine {
     void move(double dt, const std::vector<Twist>& velocities);
 
     /// Throws std::invalid_argument naming an axis along which two bodies, of any rank, could touch
-    /// on both sides.
+    /// or attract each other on both sides.
     void check_periods();
 
     /// Largest overlap at the present configuration, >= 0; of several ranks that of their own

@@ -40,7 +40,7 @@ std::optional<LawPart> make_cohesion(const LawSettings& settings, const SurfaceT
     demand_adhesion("cohesion", settings, surfaces);
     demand_positive("cohesion", "shear strength over traction", shear);
     const auto bonded = [range](const ContactSituation& s) {
-        if (s.surface.adhesion == 0.0 || bond_length(s) == 0.0) return false;
+        if (s.surface.adhesion == 0.0 || bond_length(s) == 0.0 || s.share == 0.0) return false;
         return s.state == intact || (s.initial && s.gap < range);
     };
     return LawPart{.add =

@@ -52,6 +52,30 @@ Film film_in(const FilmTerms& terms, double normal_bias, double step) {
     return {terms.coefficient, gap, terms.cutoff / step, gap - normal_bias};
 }
 
+/// The surface with another sliding friction, that of a wall without a material: static friction is
+/// as many times larger as it was, so that a wall with mu = 0 is smooth.
+Surface with_friction(Surface surface, double friction) {
+    if (friction == surface.friction) return surface;
+    // mu_s' = mu' mu_s/mu; the ratio, which is at least 1, comes first, so that rounding never
+    // makes mu_s' < mu'.
+    surface.static_friction = surface.friction > 0.0
+                                  ? friction * (surface.static_friction / surface.friction)
+                                  : std::max(surface.static_friction, friction);
+    surface.friction = friction;
+    return surface;
+}
+
+/// Two polygons may touch in two points, and only those that the law reaches share its force.
+void share_pairs(const std::vector<ContactPoint>& points, double range,
+                 std::vector<double>& shares) {
+    const auto pair_of = [](const ContactPoint& p) { return std::array{p.a, p.wall, p.b}; };
+    std::map<std::array<std::int32_t, 3>, double> counts;
+    for (const ContactPoint& p : points)
+        if (p.gap < range) counts[pair_of(p)] += 1.0;
+    for (std::size_t k = 0; k < points.size(); ++k)
+        if (points[k].gap < range) shares[k] = 1.0 / counts.at(pair_of(points[k]));
+}
+
 const Wall& wall_of(const DetectedContacts& contacts, const ContactPoint& point) {
     return contacts.walls[static_cast<std::size_t>(point.wall)];
 }
@@ -102,19 +126,35 @@ bool ContactLaws::is_round(const Bodies& bodies, std::int32_t body) const {
     return body >= 0 && round_[static_cast<std::size_t>(bodies.shape[body])] != 0;
 }
 
-/// One over the number of a pair's points within the range of the law; empty if all are 1.
-std::vector<double> ContactLaws::shares(const std::vector<ContactPoint>& points) const {
-    if (law_.range() == 0.0 || all_round()) return {};
-    const auto pair_of = [](const ContactPoint& p) { return std::array{p.a, p.wall, p.b}; };
-    std::map<std::array<std::int32_t, 3>, double> counts;
-    for (const ContactPoint& p : points)
-        // Two polygons may touch in two points, and only those that the law reaches share its
-        // force.
-        if (p.gap < law_.range()) counts[pair_of(p)] += 1.0;
-    std::vector<double> result;
-    for (const ContactPoint& p : points)
-        result.push_back(p.gap < law_.range() ? 1.0 / counts.at(pair_of(p)) : 1.0);
+/// Where walls meet; none for a law that acts on touch only.
+std::vector<CommonEdge> ContactLaws::edges_of(const DetectedContacts& contacts) const {
+    const auto& walls = contacts.walls;
+    if (law_.range() == 0.0 || std::count_if(walls.begin(), walls.end(), has_ends) < 2) return {};
+    return common_edges({contacts.points, contacts.bodies, walls, round_}, law_.range());
+}
+
+/// One over the number of a pair's points within the range of the law, and 0 where another wall is
+/// nearer; empty if all are 1.
+std::vector<double> ContactLaws::shares(const std::vector<ContactPoint>& points,
+                                        const std::vector<CommonEdge>& edges) const {
+    if (law_.range() == 0.0 || (all_round() && edges.empty())) return {};
+    std::vector<double> result(points.size(), 1.0);
+    if (!all_round()) share_pairs(points, law_.range(), result);
+    for (const CommonEdge& edge : edges) result[edge.point] = 0.0;
     return result;
+}
+
+/// Bridges and bonds go along with a body from wall to wall: what adhered to one, with its face or
+/// its edge, adheres to the one that is nearer now.
+void ContactLaws::take_states(const DetectedContacts& contacts,
+                              const std::vector<CommonEdge>& edges) {
+    past_.clear();
+    if (!law_.remembers()) return;
+    for (const ContactKey& key : contacts.keys) past_.push_back(states_.of(key));
+    for (const CommonEdge& edge : edges) {
+        double& state = past_[edge.nearer][static_cast<std::size_t>(LawSlot::adhesion)];
+        state = std::max(state, states_.largest(contacts.keys[edge.point], LawSlot::adhesion));
+    }
 }
 
 void ContactLaws::check_materials(const DetectedContacts& contacts) const {
@@ -136,11 +176,7 @@ Surface ContactLaws::surface(const DetectedContacts& contacts, const ContactPoin
     if (point.wall < 0) return surfaces_.pair(own, contacts.bodies.material[point.a]);
     const Wall& wall = wall_of(contacts, point);
     if (wall.material >= 0) return surfaces_.pair(own, wall.material);
-    Surface result = surfaces_.pair(own, own);
-    result.friction = wall.friction;
-    // Static friction must not be below sliding friction, which is the wall's here.
-    result.static_friction = std::max(result.static_friction, wall.friction);
-    return result;
+    return with_friction(surfaces_.pair(own, own), wall.friction);
 }
 
 ContactSituation ContactLaws::situation(const DetectedContacts& contacts,
@@ -165,7 +201,9 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
     situations_.clear();
     terms_.clear();
     attraction_.clear();
-    const std::vector<double> share = shares(contacts.points);
+    const std::vector<CommonEdge> edges = edges_of(contacts);
+    const std::vector<double> share = shares(contacts.points, edges);
+    take_states(contacts, edges);
     const bool filmed = law_.has(LawSlot::film);
     for (std::size_t k = 0; k < contacts.points.size(); ++k) {
         const ContactPoint& point = contacts.points[k];
@@ -182,10 +220,13 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
             now.free = magnitudes(contact_velocity(contact, free) - drive);
             if (filmed) now.mobility = normal_mobility(problem.bodies, contact);
         }
-        const ContactState past = law_.remembers() ? states_.of(contacts.keys[k]) : ContactState{};
+        const ContactState past = law_.remembers() ? past_[k] : ContactState{};
         const LawTerms terms = law_.terms(now, past);
         take_terms(contact, terms, approach, drive);
-        if (filmed) problem.films.push_back(film_in(terms.film, terms.normal_bias, step));
+        // At an edge where another wall is nearer an impact sees the film, which acts there.
+        if (filmed)
+            problem.films.push_back(
+                now.share == 0.0 ? Film{} : film_in(terms.film, terms.normal_bias, step));
         if (law_.remembers()) situations_.push_back(now), terms_.push_back(terms);
         if (terms.attraction != 0.0) {
             attraction_.resize(contacts.points.size(), 0.0);
@@ -225,7 +266,7 @@ void ContactLaws::find_states(const DetectedContacts& contacts, const Impulses& 
     for (std::size_t k = 0; k < situations_.size(); ++k) {
         const ContactKey& key = contacts.keys[k];
         const ContactOutcome outcome{terms_[k], magnitudes(solution[k]), rounding};
-        next.push_back({key, law_.remember(situations_[k], states_.of(key), outcome)});
+        next.push_back({key, law_.remember(situations_[k], past_[k], outcome)});
     }
     states_.find(std::move(next));
 }

@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "granular_adapter/nscd/detection/common_edges.hpp"
 #include "granular_adapter/nscd/detection/contact_point.hpp"
 #include "granular_adapter/nscd/laws/contact_states.hpp"
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
@@ -63,7 +64,10 @@ class ContactLaws {
     bool is_round(const Bodies& bodies, std::int32_t body) const;
     bool all_round() const;
     void check_shapes() const;
-    std::vector<double> shares(const std::vector<ContactPoint>& points) const;
+    std::vector<CommonEdge> edges_of(const DetectedContacts& contacts) const;
+    std::vector<double> shares(const std::vector<ContactPoint>& points,
+                               const std::vector<CommonEdge>& edges) const;
+    void take_states(const DetectedContacts& contacts, const std::vector<CommonEdge>& edges);
     void check_materials(const DetectedContacts& contacts) const;
 
     LawChoice choice_;
@@ -73,6 +77,7 @@ class ContactLaws {
     std::vector<std::uint8_t> round_;  ///< by shape: whether it is a disc or sphere
     ContactLaw law_;
     ContactStates states_;
+    std::vector<ContactState> past_;  ///< where the last problem began, if the law has states
     std::vector<ContactSituation> situations_;  ///< of the last problem, if the law has states
     std::vector<LawTerms> terms_;               ///< of the last problem, if the law has states
     std::vector<double> attraction_;  ///< dt c of the last problem, empty if none attracts [N s]

@@ -2,6 +2,7 @@
 #include "granular_adapter/nscd/laws/contact_states.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace turbidite::nscd {
 namespace {
@@ -16,6 +17,21 @@ ContactState ContactStates::of(const ContactKey& key) const {
     const auto at =
         std::lower_bound(accepted_.begin(), accepted_.end(), RememberedState{key, {}}, by_key);
     return at != accepted_.end() && at->key == key ? at->state : ContactState{};
+}
+
+double ContactStates::largest(const ContactKey& of_pair, LawSlot slot) const {
+    ContactKey lowest = of_pair;
+    lowest.feature = std::numeric_limits<std::int32_t>::min();
+    auto at =
+        std::lower_bound(accepted_.begin(), accepted_.end(), RememberedState{lowest, {}}, by_key);
+    const auto same_pair = [&] {
+        return at->key.first == of_pair.first && at->key.second == of_pair.second &&
+               at->key.wall == of_pair.wall;
+    };
+    double value = 0.0;
+    for (; at != accepted_.end() && same_pair(); ++at)
+        value = std::max(value, at->state[static_cast<std::size_t>(slot)]);
+    return value;
 }
 
 void ContactStates::find(std::vector<RememberedState> next) {

@@ -24,6 +24,9 @@ class ContactStates {
     /// State at the last accepted step; zeros for an unknown contact.
     ContactState of(const ContactKey& key) const;
 
+    /// The largest value of a slot among all contact points of the pair.
+    double largest(const ContactKey& of_pair, LawSlot slot) const;
+
     /// True until the first step is accepted: in that step bonds are formed.
     bool initial() const { return !started_; }
 

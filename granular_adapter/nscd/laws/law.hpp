@@ -43,9 +43,11 @@ struct ContactSituation {
     Surface surface;                                            ///< of the pair
     double radius_a = std::numeric_limits<double>::infinity();  ///< infinite for a wall [m]
     double radius_b = 0.0;                                      ///< [m]
-    bool round = true;      ///< one of the two is round: the pair has a single contact point
-    double length = 0.0;    ///< of the face that the point represents, else zero [m]
-    double share = 1.0;     ///< one over the number of the pair's points within the law's range
+    bool round = true;    ///< one of the two is round: the pair has a single contact point
+    double length = 0.0;  ///< of the face that the point represents, else zero [m]
+    /// One over the number of the pair's points within the law's range; 0 at the edge of a wall
+    /// where another is nearer (common_edges.hpp): no attraction.
+    double share = 1.0;
     Magnitudes approach;    ///< u^-: at the start of the step, wall motion included [m/s]
     Magnitudes free;        ///< u without contact impulses [m/s]
     double mobility = 0.0;  ///< W_nn: change of u_n by a unit impulse; with films only [1/kg]

@@ -71,6 +71,27 @@ Extent extent_of(const Wall& wall) {
     return all;
 }
 
+double size_of(const Wall& wall) {
+    if (wall.form != WallForm::round) return 2.0 * std::max(wall.half_length, wall.half_width);
+    const auto& [p, q] = wall.meridian;
+    return std::max({p.radius, q.radius, std::abs(q.height - p.height)});
+}
+
+bool is_on(const Wall& wall, const Vec3& place, double tolerance) {
+    const Vec3 arm = place - wall.point;
+    const double height = dot(wall.normal, arm);
+    if (wall.form == WallForm::round)
+        return nearest_place(wall.meridian, {norm(arm - height * wall.normal), height}).distance <=
+               tolerance;
+    // A segment is along e_z x n = (-n_y, n_x).
+    const bool flat = wall.form == WallForm::flat;
+    const Vec3 side = flat ? Vec3{-wall.normal[1], wall.normal[0], 0.0} : wall.side;
+    const double across = flat ? 0.0 : dot(cross(wall.normal, side), arm);
+    return std::abs(height) <= tolerance &&
+           std::abs(dot(side, arm)) <= wall.half_length + tolerance &&
+           std::abs(across) <= wall.half_width + tolerance;
+}
+
 double signed_distance(const Wall& wall, const Vec3& point) {
     // n . (x - p)
     return dot(wall.normal, point - wall.point);

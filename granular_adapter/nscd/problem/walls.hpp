@@ -59,6 +59,13 @@ struct Extent {
 };
 Extent extent_of(const Wall& wall);
 
+/// The longest of its dimensions, for tolerances; of a wall with ends [m].
+double size_of(const Wall& wall);
+
+/// Whether a place is on the line or surface of a wall with ends, its edges included, to within a
+/// distance [m].
+bool is_on(const Wall& wall, const Vec3& place, double tolerance);
+
 bool is_moving(const Wall& wall);
 
 /// Velocity of the wall's material at a position [m/s].

@@ -106,9 +106,9 @@ bool RankDomain::is_uneven(const std::vector<double>& work) const {
     return *std::max_element(work.begin(), work.end()) * ranks_.size() > uneven * all;
 }
 
-void RankDomain::check_periods(const Bodies& own, const PeriodicBox& box) {
-    sizes(own, box);
-    nscd::check_periods(radii_, box);
+void RankDomain::check_periods(const Bodies& own, double range, const PeriodicBox& box) {
+    // radii_ may be in the order of an earlier distribution of the bodies.
+    nscd::check_periods(gathered(ranks_, own.radius), gathered(ranks_, own.fixed), range, box);
 }
 
 std::vector<Twist> RankDomain::extremes(const std::vector<Twist>& own) const {

@@ -42,7 +42,7 @@ class RankDomain {
     /// Of the bodies of all ranks.
     CellSizes sizes(const Bodies& own, const PeriodicBox& box);
     /// Throws as check_periods does, on all ranks.
-    void check_periods(const Bodies& own, const PeriodicBox& box);
+    void check_periods(const Bodies& own, double range, const PeriodicBox& box);
 
     /// Two motions, from which the largest relative velocity of any two bodies of all ranks can be
     /// found (detection/reach.hpp).

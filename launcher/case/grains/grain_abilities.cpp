@@ -11,6 +11,7 @@
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/scene/mesh_rows.hpp"
+#include "coupler/shapes/shortest_period.hpp"
 #include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
@@ -139,6 +140,46 @@ CaseProblem refused(const StartGrains& start, std::size_t i, const GrainRule& ru
             .remedy = rule.remedy};
 }
 
+/// Periods that differ from the shortest one by rounding only are refused as it is.
+constexpr double same_period = 1e-9;
+
+/// How far contact laws reach beyond touching, and the key that says so.
+struct LawRange {
+    double length = 0.0;  ///< [D]
+    std::string key;
+};
+
+LawRange law_range(const Settings& s) {
+    LawRange range;
+    const auto at_least = [&range](double length, const char* key) {
+        if (length > range.length) range = {length, key};
+    };
+    if (s.text("contact.adhesion") != "none")
+        at_least(s.real("contact.adhesion_range"), "contact.adhesion_range");
+    // A cut-off in cells, in D.
+    if (has_films(s))
+        at_least(s.real("contact.film_cutoff") / s.real("fluid.cells_per_diameter"),
+                 "contact.film_cutoff");
+    return range;
+}
+
+Objection too_short(const ShortestPeriod& shortest, const LawRange& range) {
+    const double least = shortest.length(range.length);
+    if (shortest.pair() == 0.0)
+        return {fmt::format("Cyclic sides are at least the largest grain apart, {:.4g} D.", least),
+                "Make the box larger, or use wall or free sides."};
+    if (range.length == 0.0)
+        return {fmt::format("Cyclic sides are more than the two largest grains apart, {:.4g} D: "
+                            "else two grains could touch on both sides.",
+                            least),
+                "Make the box larger, or use wall or free sides."};
+    return {
+        fmt::format("Cyclic sides are more than the two largest grains and twice {} = {:.4g} D "
+                    "apart, {:.4g} D: else two grains could attract each other on both sides.",
+                    range.key, range.length, least),
+        fmt::format("Make the box larger, use wall or free sides, or a smaller {}.", range.key)};
+}
+
 }  // namespace
 
 double least_density(const Settings& settings, double radius) {
@@ -174,25 +215,17 @@ CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
 
 CaseProblems check_periods(const Packing& grains, const Settings& settings,
                            const CaseEntries& entries) {
-    double first = 0.0, second = 0.0;  // largest radii
-    for (const PlacedGrain& grain : grains) {
-        second = std::max(second, std::min(first, grain.radius));
-        first = std::max(first, grain.radius);
-    }
-    // R_1 + R_2 between the centres where grains touch; for both sides of one at once twice as
-    // much.
-    const double least = 2.0 * (first + second);
+    ShortestPeriod shortest;
+    for (const PlacedGrain& grain : grains) shortest.add(grain.radius, grain.prescribed);
+    const LawRange range = law_range(settings);
     const PackingBox box = packing_box(settings);
-    const double period =
-        std::min({box.periodic_x ? box.width : least, box.periodic_y ? box.height : least,
-                  box.periodic_z ? box.depth : least});
-    if (period >= least) return {};
-    const Objection objection{
-        fmt::format("Between cyclic sides lie at least the two largest grains, {:.4g} D: with "
-                    "less, two grains could touch on both sides.",
-                    least),
-        "Make the box larger, or use wall or free sides."};
-    return {problem_with("domain.size", objection, settings, entries)};
+    const auto fits = [&](bool periodic, double period) {
+        return !periodic || shortest.allows(period, range.length, same_period);
+    };
+    if (fits(box.periodic_x, box.width) && fits(box.periodic_y, box.height) &&
+        fits(box.periodic_z, box.depth))
+        return {};
+    return {problem_with("domain.size", too_short(shortest, range), settings, entries)};
 }
 
 }  // namespace turbidite

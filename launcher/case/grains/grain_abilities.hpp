@@ -14,8 +14,8 @@ namespace turbidite {
 CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
                              const GrainForms& forms);
 
-/// Cyclic sides are as far apart as the two largest grains are wide together: nearer, two grains
-/// could touch on both sides.
+/// Cyclic sides must be so far apart that no two grains can touch, or attract each other, on both
+/// sides (coupler/shapes/shortest_period.hpp).
 CaseProblems check_periods(const Packing& grains, const Settings& settings,
                            const CaseEntries& entries);
 

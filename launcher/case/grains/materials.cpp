@@ -25,8 +25,18 @@ double given(const Settings& s, const std::string& key, double otherwise) {
     return s.has(key) ? s.real(key) : otherwise;
 }
 
-double fallback(const Settings& s, const char* coefficient) {
-    return given(s, std::string("contact.") + coefficient, 0.0);
+/// Of a material; what it does not give is that of contact.*, which are those of "default".
+double of_material(const Settings& s, const std::string& name, const std::string& coefficient) {
+    const double fallback = given(s, "contact." + coefficient, 0.0);
+    return given(s, material_prefix + name + "." + coefficient, fallback);
+}
+
+/// Of a pair; what it does not give is the smaller value of its materials.
+double of_pair(const Settings& s, const std::string& pair, const std::string& coefficient) {
+    const auto dash = pair.find('-');
+    const double smaller = std::min(of_material(s, pair.substr(0, dash), coefficient),
+                                    of_material(s, pair.substr(dash + 1), coefficient));
+    return given(s, pair_prefix + pair + "." + coefficient, smaller);
 }
 
 /// Of "steel", or of a pair, "glass-steel".
@@ -42,10 +52,26 @@ std::optional<Objection> unknown_material(const std::string& pair,
     return std::nullopt;
 }
 
-/// The surface of a material or a pair; values it does not give are those of contact.*.
-std::optional<Objection> unfit(const Settings& s, const std::string& group) {
-    const double sliding = given(s, group + ".friction", fallback(s, "friction"));
-    const double sticking = given(s, group + ".static_friction", fallback(s, "static_friction"));
+/// Key groups below contact.pairs: a pair may be written in either order, but not in both.
+std::optional<Objection> written_twice(const std::string& pair, const std::set<std::string>& seen) {
+    const auto dash = pair.find('-');
+    if (dash == std::string::npos) return std::nullopt;
+    const std::string first = pair.substr(0, dash), second = pair.substr(dash + 1);
+    const std::string other = pair_prefix + second + "-" + first;
+    if (first == second || !seen.contains(other)) return std::nullopt;
+    return Objection{
+        fmt::format("{} and {}{} are one pair: either would hide what the other gives.", other,
+                    pair_prefix, pair),
+        fmt::format("Write all of its coefficients below {}.", other)};
+}
+
+/// The friction of a material or a pair.
+std::optional<Objection> unfit(const Settings& s, const std::string& material,
+                               const std::string& pair) {
+    const auto value = [&](const char* coefficient) {
+        return pair.empty() ? of_material(s, material, coefficient) : of_pair(s, pair, coefficient);
+    };
+    const double sliding = value("friction"), sticking = value("static_friction");
     if (is(s, "contact.law", "static-dynamic") && sticking < sliding)
         return Objection{fmt::format("The static coefficient must be at least the sliding one: "
                                      "static_friction = {}, friction = {}.",
@@ -89,7 +115,8 @@ CaseProblems check_materials(const Settings& settings, const CaseEntries& entrie
                             adapters_that([](const GrainsAdapter& a) { return a.materials; }))};
         else if (!pair.empty())
             objection = unknown_material(pair, names);
-        if (!objection && settings.has("contact.law")) objection = unfit(settings, group);
+        if (!objection && !pair.empty()) objection = written_twice(pair, seen);
+        if (!objection && settings.has("contact.law")) objection = unfit(settings, material, pair);
         if (objection) problems.push_back(problem_with(key, *objection, settings, entries));
     }
     if (settings.has("domain.material"))

@@ -4,16 +4,13 @@
 // a case with a fluid has.
 #include <fmt/format.h>
 
+#include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "granular_adapter/contact_keys/offered_choices.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/case/keys/key_groups.hpp"
 
 namespace turbidite {
 namespace {
-
-bool has_films(const Settings& s) {
-    return in_space(s) && s.flag("fluid.enabled") && s.text("contact.film") != "none";
-}
 
 Ruling adapter_has_films(const Settings& s) {
     if (!has_films(s) || grains_adapter(s).films) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -84,32 +85,65 @@ void check_together(CsvTable& table, const char* one, const char* other) {
                  csv_form().sentence, "Add the other.");
 }
 
-/// How far the images of a wall are that may reach grains in the box, the wall itself included.
-std::vector<Point2> image_shifts(const InnerWall& wall, const PackingBox& box) {
-    const auto most = [](bool periodic, double from, double to, double length) {
-        // Ends may lie outside the box by several periods: as many images bring them back.
-        return periodic ? 1 + static_cast<int>(std::max(std::abs(from), std::abs(to)) / length) : 0;
-    };
-    const int across = most(box.periodic_x, wall.from[0], wall.to[0], box.width);
-    const int up = most(box.periodic_y, wall.from[1], wall.to[1], box.height);
-    std::vector<Point2> shifts;
-    for (int i = -across; i <= across; ++i)
-        for (int j = -up; j <= up; ++j) shifts.push_back({i * box.width, j * box.height});
-    return shifts;
-}
-
 Point2 middle(const InnerWall& wall) {
     return {0.5 * (wall.from[0] + wall.to[0]), 0.5 * (wall.from[1] + wall.to[1])};
 }
 
+Vec3 centre_of(const InnerWall& wall) {
+    if (wall.space) return middle_of(*wall.space);
+    return {middle(wall)[0], middle(wall)[1], 0.0};
+}
+
+/// Of the faces of a wall: of a plate in the plane, half its thickness to both sides of its line.
+Vec3 extent_of(const InnerWall& wall) {
+    if (wall.space) return size_of(wall);
+    const double x = std::abs(wall.to[0] - wall.from[0]), y = std::abs(wall.to[1] - wall.from[1]);
+    const double face = wall.thickness / std::hypot(x, y);
+    return {x + face * y, y + face * x, 0.0};
+}
+
+/// Of the box, and where it repeats.
+struct Period {
+    double length;
+    bool repeats;
+};
+
+std::array<Period, 3> periods_of(const PackingBox& box) {
+    return {
+        {{box.width, box.periodic_x}, {box.height, box.periodic_y}, {box.depth, box.periodic_z}}};
+}
+
+/// How far the images of a wall are that may reach grains in the box, the wall itself included.
+std::vector<Vec3> image_shifts(const InnerWall& wall, const PackingBox& box) {
+    const Vec3 centre = centre_of(wall), size = extent_of(wall);
+    std::vector<Vec3> shifts{Vec3{}};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto [period, repeats] = periods_of(box)[axis];
+        if (!repeats) continue;
+        // Walls may lie outside the box by several periods. All images that come within a period of
+        // it: low + k L <= 2 L and high + k L >= -L.
+        const double low = centre[axis] - 0.5 * size[axis], high = centre[axis] + 0.5 * size[axis];
+        const int first = static_cast<int>(std::ceil(-1.0 - high / period));
+        const int last = static_cast<int>(std::floor(2.0 - low / period));
+        std::vector<Vec3> more;
+        for (const Vec3& shift : shifts)
+            for (int k = first; k <= last; ++k) {
+                more.push_back(shift);
+                more.back()[axis] = k * period;
+            }
+        shifts = std::move(more);
+    }
+    return shifts;
+}
+
 std::vector<PlacedOutline> images(const InnerWall& wall, const PackingBox& box) {
-    const auto sum = [](const Point2& p, const Point2& q) {
-        return Point2{p[0] + q[0], p[1] + q[1]};
+    const auto moved = [](const Point2& p, const Vec3& shift) {
+        return Point2{p[0] + shift[0], p[1] + shift[1]};
     };
     std::vector<PlacedOutline> plates;
-    for (const Point2& shift : image_shifts(wall, box))
+    for (const Vec3& shift : image_shifts(wall, box))
         plates.push_back(
-            {sum(middle(wall), shift), 0.0, {sum(wall.from, shift), sum(wall.to, shift)}});
+            {moved(middle(wall), shift), 0.0, {moved(wall.from, shift), moved(wall.to, shift)}});
     return plates;
 }
 
@@ -125,18 +159,31 @@ class StartGap {
  public:
     StartGap(const InnerWall& wall, const GrainForms& forms, const PackingBox& box)
         : wall_(wall), forms_(forms) {
-        if (!wall.space) plates_ = images(wall, box);
+        if (wall.space)
+            shifts_ = image_shifts(wall, box);
+        else
+            plates_ = images(wall, box);
     }
     double operator()(const PlacedGrain& grain) const {
-        if (wall_.space) return surface_gap(wall_, grain);
+        if (wall_.space) return gap_in_space(grain);
         // A plate is all that is nearer to its line than half its thickness.
         return smallest_gap(plates_, placed_outline(grain, forms_)) - 0.5 * wall_.thickness;
     }
 
  private:
+    double gap_in_space(const PlacedGrain& sphere) const {
+        double smallest = std::numeric_limits<double>::infinity();
+        for (const Vec3& shift : shifts_)
+            smallest = std::min(
+                smallest,
+                surface_gap(wall_, Vec3{sphere.x, sphere.y, sphere.z} - shift, sphere.radius));
+        return smallest;
+    }
+
     const InnerWall& wall_;
     const GrainForms& forms_;
-    std::vector<PlacedOutline> plates_;
+    std::vector<PlacedOutline> plates_;  ///< in the plane
+    std::vector<Vec3> shifts_;           ///< in space
 };
 
 std::string place_of(const PlacedGrain& grain, bool space) {
@@ -144,13 +191,13 @@ std::string place_of(const PlacedGrain& grain, bool space) {
                  : fmt::format("({}, {})", grain.x, grain.y);
 }
 
-/// Nothing unless the images of a wall in space across a cyclic side would lie on the wall itself.
+/// Nothing unless the images of a wall across a cyclic side would lie on the wall itself.
 void check_period(const InnerWall& wall, const PackingBox& box, const std::string& source,
                   std::vector<CaseProblem>& problems) {
-    const Vec3 size = size_of(wall), period{box.width, box.height, box.depth};
-    const bool repeats[] = {box.periodic_x, box.periodic_y, box.periodic_z};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (repeats[axis] && size[axis] > period[axis] + touching_tolerance)
+    const Vec3 size = extent_of(wall);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto [period, repeats] = periods_of(box)[axis];
+        if (repeats && size[axis] > period + touching_tolerance)
             problems.push_back(
                 {.source = source,
                  .line = 0,
@@ -160,8 +207,9 @@ void check_period(const InnerWall& wall, const PackingBox& box, const std::strin
                                       "xyz"[axis]),
                  .allowed = fmt::format("The box repeats there every {:.6g} D, and the wall with "
                                         "it.",
-                                        period[axis]),
+                                        period),
                  .remedy = "Let it end at the sides, where its image begins."});
+    }
 }
 
 }  // namespace
@@ -217,7 +265,7 @@ std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const 
                                      const std::string& source, double tolerance) {
     std::vector<CaseProblem> problems;
     for (const InnerWall& wall : walls) {
-        if (wall.space) check_period(wall, box, source, problems);
+        check_period(wall, box, source, problems);
         const StartGap gap_of(wall, forms, box);
         for (const PlacedGrain& grain : grains) {
             const double gap = gap_of(grain);

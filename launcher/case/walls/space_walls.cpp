@@ -191,7 +191,7 @@ void check_surface(Fields& fields, const InnerWall& wall,
 }
 
 Vec3 usual_pivot(const SpaceForm& form) {
-    return form.kind == SpaceWallKind::plate ? form.place + 0.5 * (form.a + form.b) : form.place;
+    return form.kind == SpaceWallKind::plate ? middle_of(form) : form.place;
 }
 
 InnerWall wall_of(CsvTable& table, const CsvTable::Row& row,
@@ -248,6 +248,34 @@ double distance_to_round(const SpaceForm& form, const Vec3& place) {
         .distance;
 }
 
+Vec3 size_of_plate(const SpaceForm& form, double thickness) {
+    const Vec3 across = cross(form.a, form.b);
+    Vec3 size{};
+    for (std::size_t i = 0; i < 3; ++i)
+        // A parallelogram: edges along an axis add up, whatever their directions; its faces are t/2
+        // from it along the normal.
+        size[i] = std::abs(form.a[i]) + std::abs(form.b[i]) +
+                  thickness * std::abs(across[i]) / norm(across);
+    return size;
+}
+
+Vec3 size_of_round(const SpaceForm& form, double thickness) {
+    const Vec3 axis = form.a / norm(form.a);
+    const double widest = std::max(form.radius, form.radius2);
+    const double along = form.kind == SpaceWallKind::ring ? 0.0 : norm(form.a);
+    const double wider = has_second_radius(form.kind) ? form.radius2 - form.radius : 0.0;
+    // The normal of the meridian (wider, along) is (along, -wider)/slant beside the axis.
+    const double slant = std::hypot(along, wider);
+    Vec3 size{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        // A circle normal to the unit vector e extends by R sqrt(1 - e_i^2) along axis i.
+        const double circle = std::sqrt(std::max(0.0, 1.0 - axis[i] * axis[i]));
+        const double faces = along / slant * circle + std::abs(wider) / slant * std::abs(axis[i]);
+        size[i] = along * std::abs(axis[i]) + 2.0 * widest * circle + thickness * faces;
+    }
+    return size;
+}
+
 }  // namespace
 
 InnerWalls read_space_walls_csv(const std::filesystem::path& file,
@@ -286,28 +314,23 @@ std::string space_walls_csv(const std::vector<InnerWall>& walls) {
     return text;
 }
 
-double surface_gap(const InnerWall& wall, const PlacedGrain& sphere) {
+double surface_gap(const InnerWall& wall, const Vec3& place, double radius) {
     const SpaceForm& form = *wall.space;
-    const Vec3 place{sphere.x, sphere.y, sphere.z};
     const double distance = form.kind == SpaceWallKind::plate ? distance_to_plate(form, place)
                                                               : distance_to_round(form, place);
     // Distances have no sign: walls hold grains on both sides.
-    return distance - sphere.radius - 0.5 * wall.thickness;
+    return distance - radius - 0.5 * wall.thickness;
+}
+
+Vec3 middle_of(const SpaceForm& form) {
+    if (form.kind == SpaceWallKind::plate) return form.place + 0.5 * (form.a + form.b);
+    return form.kind == SpaceWallKind::ring ? form.place : form.place + 0.5 * form.a;
 }
 
 Vec3 size_of(const InnerWall& wall) {
     const SpaceForm& form = *wall.space;
-    const Vec3 axis = form.a / norm(form.a);
-    const double widest = std::max(form.radius, form.radius2);
-    Vec3 size{};
-    for (std::size_t i = 0; i < 3; ++i)
-        if (form.kind == SpaceWallKind::plate)
-            // A parallelogram: edges along an axis add up, whatever their directions.
-            size[i] = std::abs(form.a[i]) + std::abs(form.b[i]);
-        else  // a circle normal to the unit vector e extends by R sqrt(1 - e_i^2) along axis i
-            size[i] = (form.kind == SpaceWallKind::ring ? 0.0 : std::abs(form.a[i])) +
-                      2.0 * widest * std::sqrt(std::max(0.0, 1.0 - axis[i] * axis[i]));
-    return size;
+    return form.kind == SpaceWallKind::plate ? size_of_plate(form, wall.thickness)
+                                             : size_of_round(form, wall.thickness);
 }
 
 std::string space_walls_setting(const std::vector<InnerWall>& walls, const Scales& scales,

@@ -33,9 +33,14 @@ InnerWalls read_space_walls_csv(const std::filesystem::path& file,
 std::string space_walls_csv(const std::vector<InnerWall>& walls);
 
 /// Distance of the surface of a sphere from a wall, negative where they overlap [D].
-double surface_gap(const InnerWall& wall, const PlacedGrain& sphere);
+double surface_gap(const InnerWall& wall, const Vec3& place, double radius);
 
-/// Length of the smallest box around a wall, parallel to the axes [D].
+/// Of the smallest box around a wall; of a cone that around its wider end, all along [D].
+Vec3 middle_of(const SpaceForm& form);
+
+/// Length of a box around a wall's faces, parallel to the axes; they are half its thickness from
+/// its surface. Its round edges, as far beyond, lie in what begins there: its image, or another
+/// wall [D].
 Vec3 size_of(const InnerWall& wall);
 
 /// The value of `run.walls` (coupler/protocol/scene/space_walls.hpp), in the run's units.

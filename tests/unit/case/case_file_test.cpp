@@ -410,20 +410,42 @@ TEST_F(CaseFile, CyclicSidesComeInPairs) {
     EXPECT_EQ(refusal("", {"domain.left=cyclic", "domain.right=cyclic"}), "");
 }
 
-// Two grains of 1 D could touch on both sides of a box that repeats after 1.5 D; one grain could
-// not.
+// Two grains of 1 D could touch on both sides of a box that repeats after 1.5 D, or just after 2 D;
+// one grain could not, nor could two that are fixed.
 TEST_F(CaseFile, GrainsTouchOnOneSideOnly) {
     folder.write("two.csv", "id,x,y\n1,0.75,1\n2,0.75,3\n");
     folder.write("one.csv", "id,x,y\n1,0.75,1\n");
+    folder.write("fixed.csv", "id,x,y,motion\n1,0.75,1,fixed\n2,0.75,3,fixed\n");
     const auto with = [&](const char* file, const char* size) {
         return refusal("", {std::string("grains.file=") + file, std::string("domain.size=") + size,
                             "domain.left=cyclic", "domain.right=cyclic"});
     };
     const std::string text = with("two.csv", "[1.5, 8]");
     EXPECT_SAYS(text, "domain.size = [1.5, 8]");
-    EXPECT_SAYS(text, "at least the two largest grains, 2 D");
-    EXPECT_EQ(with("two.csv", "[2, 8]"), "");
+    EXPECT_SAYS(text, "more than the two largest grains apart, 2 D");
+    EXPECT_SAYS(with("two.csv", "[2, 8]"), "more than the two largest grains apart, 2 D");
+    EXPECT_EQ(with("two.csv", "[2.125, 8]"), "");
     EXPECT_EQ(with("one.csv", "[1.5, 8]"), "");
+    EXPECT_EQ(with("fixed.csv", "[2, 8]"), "");
+}
+
+// Bridges of up to 0.3 D act on both sides of a box that repeats after up to 2 D + 2 0.3 D.
+TEST_F(CaseFile, GrainsAttractOnOneSideOnly) {
+    folder.write("two.csv", "id,x,y\n1,0.75,1\n2,0.75,3\n");
+    const auto with = [&](const char* size) {
+        return refusal(
+            "", {"grains.file=two.csv", std::string("domain.size=") + size, "domain.left=cyclic",
+                 "domain.right=cyclic", "contact.adhesion=wet", "contact.adhesion_force=1",
+                 "contact.adhesion_range=0.3", "fluid.enabled=false"});
+    };
+    const std::string text = with("[2.2, 8]");
+    EXPECT_SAYS(text, "domain.size = [2.2, 8]");
+    EXPECT_SAYS(text,
+                "more than the two largest grains and twice contact.adhesion_range = 0.3 D apart, "
+                "2.6 D");
+    EXPECT_SAYS(text, "a smaller contact.adhesion_range");
+    EXPECT_SAYS(with("[2.6, 8]"), "2.6 D");
+    EXPECT_EQ(with("[2.65, 8]"), "");
 }
 
 // The transport of a window is divided into up to 1000 sub-steps of 2/3 of a cell for jets of 8

@@ -87,6 +87,17 @@ TEST_F(LawKeys, AThetaIsToldWhyItWent) {
 TEST_F(LawKeys, MoreauHasOneRestitution) {
     EXPECT_SAYS(refusal({"contact.impact=moreau", "contact.restitution_tangential=0.1"}),
                 "contact.restitution_tangential = 0.1");
+    const std::string of_material =
+        refusal({"contact.impact=moreau", "contact.materials.steel.restitution_tangential=0.1"});
+    EXPECT_SAYS(of_material, "contact.impact = moreau");
+    EXPECT_SAYS(of_material, "but contact.materials.steel.restitution_tangential = 0.1");
+    EXPECT_SAYS(of_material, "Remove contact.materials.steel.restitution_tangential");
+    EXPECT_SAYS(refusal({"contact.impact=moreau",
+                         "contact.pairs.default-default.restitution_tangential=0.1"}),
+                "but contact.pairs.default-default.restitution_tangential = 0.1");
+    EXPECT_EQ(
+        refusal({"contact.impact=newton", "contact.materials.steel.restitution_tangential=0.1"}),
+        "");
 }
 
 TEST_F(LawKeys, RollingResistanceNeedsDiscs) {

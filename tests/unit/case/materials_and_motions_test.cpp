@@ -98,6 +98,32 @@ TEST_F(RichCase, MaterialsMustFitTogether) {
     EXPECT_SAYS(refusal("", {"grains.adapter=yade-md"}), "yade-md supports free grains only");
 }
 
+// A pair takes what it does not give from its materials, not from contact.*.
+TEST_F(RichCase, StaticFrictionOfAPairIsThatOfItsMaterials) {
+    std::vector<std::string> set{"contact.law=static-dynamic", "contact.static_friction=0.5",
+                                 "contact.materials.rubber.static_friction=0.95",
+                                 "contact.materials.steel.static_friction=0.8"};
+    // Steel and rubber stick with 0.8: more than 0.5 is fine, more than 0.8 is not.
+    set.push_back("contact.pairs.steel-rubber.friction=0.7");
+    EXPECT_EQ(refusal("", set), "");
+    set.back() = "contact.pairs.steel-rubber.friction=0.9";
+    EXPECT_SAYS(refusal("", set), "static_friction = 0.8, friction = 0.9");
+    // Steel slides with 0.1, so that its pairs may stick with less than contact.friction.
+    set.back() = "contact.pairs.default-steel.static_friction=0.2";
+    EXPECT_EQ(refusal("", set), "");
+}
+
+// Of a pair in both orders one would win as a whole.
+TEST_F(RichCase, APairIsWrittenInOneOrder) {
+    const std::string text = refusal("", {"contact.pairs.rubber-steel.restitution=0.3"});
+    EXPECT_SAYS(text, "contact.pairs.steel-rubber.friction = 0.5");
+    EXPECT_SAYS(text, "contact.pairs.rubber-steel and contact.pairs.steel-rubber are one pair");
+    EXPECT_SAYS(text, "Write all of its coefficients below contact.pairs.rubber-steel.");
+    EXPECT_EQ(refusal("", {"contact.pairs.steel-rubber.restitution=0.3",
+                           "contact.pairs.steel-steel.friction=0.2"}),
+              "");
+}
+
 class MovingWalls : public CaseTest {
  protected:
     MovingWalls()

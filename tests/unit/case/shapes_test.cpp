@@ -238,6 +238,21 @@ TEST_F(WallsFile, GrainsThatAnImageCutsAreNamed) {
     }
 }
 
+/// It would lie on its own images. From side to side it may be thick.
+TEST_F(WallsFile, AWallThatIsLongerThanTheBoxRepeatsIsRefused) {
+    folder.write("grains.csv", "id,x,y\n9,3,6\n");
+    const auto with = [&](const std::string& row, const std::string& sides) {
+        folder.write("walls.csv", "id,x1,y1,x2,y2,thickness\n" + row);
+        return refusal("grains: {file: grains.csv, adapter: standalone-nscd}\n",
+                       {"domain.walls_file=walls.csv", "domain.size=[10,20]",
+                        "domain.left=" + sides, "domain.right=" + sides});
+    };
+    EXPECT_EQ(with("1,-2,3,10,3,0\n", "wall"), "");
+    EXPECT_SAYS(with("1,-2,3,10,3,0\n", "cyclic"), "wall 1 is 12 D long along x");
+    EXPECT_EQ(with("1,0,3,10,3,0.4\n", "cyclic"), "");
+    EXPECT_EQ(with("1,4,3,4,12,0.4\n", "cyclic"), "");
+}
+
 TEST_F(WallsFile, IsForContactEnginesWithOrWithoutAFluid) {
     folder.write("walls.csv", "id,x1,y1,x2,y2\n1,0,0.001,8,0.001\n");
     const std::vector<std::string> wet = {"domain.walls_file=walls.csv", "fluid.enabled=true",

@@ -185,6 +185,10 @@ TEST_F(SpaceCase, FilmsNeedAFluidSpheresAndTheContactEngine) {
     EXPECT_SAYS(refusal("", with({"contact.film_roughness=0"})),
                 "smooth spheres would never touch");
     EXPECT_SAYS(refusal("", with({"contact.film=stokes"})), "lubrication");
+    // On both sides of a box of up to 2 D + 2 1.2/8 D.
+    EXPECT_SAYS(refusal("", with({"domain.size=[12, 10, 2.25]", "grains.count=4"})),
+                "twice contact.film_cutoff = 0.15 D apart, 2.3 D");
+    EXPECT_EQ(refusal("", with({"domain.size=[12, 10, 2.375]", "grains.count=4"})), "");
 }
 
 TEST_F(PlaneCase, FilmsAreOfSpace) {
@@ -403,7 +407,7 @@ TEST_F(SpaceCase, SidesComeInPairsAndRegionsInTheBox) {
     EXPECT_SAYS(refusal("", {"grains.region=[12, 10, 7]"}), "The region lies in the box");
     EXPECT_SAYS(refusal("", {"grains.region=[12, 10]"}), "Length, height and depth in D");
     EXPECT_SAYS(refusal("", {"domain.size=[12, 10, 1.5]", "grains.count=4"}),
-                "Between cyclic sides lie at least the two largest grains");
+                "Cyclic sides are more than the two largest grains apart");
 }
 
 TEST_F(SpaceCase, DenseRandomPackingsHaveToBePoured) {

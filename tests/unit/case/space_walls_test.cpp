@@ -122,6 +122,21 @@ TEST_F(SpaceWallsCase, GrainsThatAWallCutsAreRefused) {
     EXPECT_EQ(refusal_of("0,plate,11,5.2,9,2,0,0,0,0,2,,,,,,,,,\n"), "");
 }
 
+// The image of the plate at x = 21 to 23 is at 1 to 3; that of the ring 19 to 21 is at -1 to 1.
+TEST_F(SpaceWallsCase, GrainsThatAnImageCutsAreRefused) {
+    folder.write("g.csv", "id,x,y,z\n1,0.75,5,10\n");
+    const std::vector<std::string> cyclic = {"domain.left=cyclic", "domain.right=cyclic"};
+    for (const char* row :
+         {"0,plate,20.5,5.2,9,2,0,0,0,0,2,,,,,,,,,\n", "0,plate,-59.5,5.2,9,2,0,0,0,0,2,,,,,,,,,\n",
+          "0,ring,19.8,5.2,10,0,1,0,,,,0,1,,,,,,,\n"}) {
+        walls(row);
+        EXPECT_EQ(refusal(""), "") << row;
+        EXPECT_SAYS(refusal("", cyclic), "wall 0 cuts grain 1 at (0.75, 5, 10) by 0.3 D");
+    }
+    walls("0,plate,19,5.2,9,0.5,0,0,0,0,2,,,,,,,,,\n");
+    EXPECT_EQ(refusal("", cyclic), "");
+}
+
 /// It would lie on its own images.
 TEST_F(SpaceWallsCase, AWallThatIsLongerThanTheBoxRepeatsIsRefused) {
     walls("0,cylinder,10,0,0,0,0,21,,,,8,,,,,,,,\n");
@@ -134,6 +149,22 @@ TEST_F(SpaceWallsCase, AWallThatIsLongerThanTheBoxRepeatsIsRefused) {
     EXPECT_SAYS(refusal("", cyclic), "wall 0 is 20.2 D long along z");
     walls("0,plate,1,2,1,4,0,0,0,0,22,,,,,,,,,\n");
     EXPECT_SAYS(refusal("", cyclic), "wall 0 is 22 D long along z");
+}
+
+/// Two shells of neighbours would be one in the other; the ends of a thick wall meet those of its
+/// image.
+TEST_F(SpaceWallsCase, ThicknessCountsAcrossAWallAndNotAlongIt) {
+    const std::vector<std::string> cyclic = {"domain.front=cyclic", "domain.back=cyclic"};
+    walls("0,cylinder,10,0,10,0,9,0,,,,9.9,,0.2,,,,,,\n");
+    EXPECT_EQ(refusal("", cyclic), "");
+    walls("0,cylinder,10,0,10,0,9,0,,,,9.9,,0.4,,,,,,\n");
+    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 20.2 D long along z");
+    walls("0,cylinder,10,0,0,0,0,20,,,,8,,0.4,,,,,,\n");
+    EXPECT_EQ(refusal("", cyclic), "");
+    walls("0,plate,1,2,0,4,0,0,0,0,20,,,0.4,,,,,,\n");
+    EXPECT_EQ(refusal("", cyclic), "");
+    walls("0,plate,1,2,5,4,0,0,0,2,0,,,20.5,,,,,,\n");
+    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 20.5 D long along z");
 }
 
 class CylinderCase : public CaseTest {

@@ -88,15 +88,41 @@ TEST(BroadPhase, HandlesNoBodyAndOne) {
     EXPECT_TRUE(candidate_pairs({{1, 1, 0}}, {0.5}, 0.1, {}).empty());
 }
 
-// Two discs of radius 0.5 in a period of 1.9 can touch on both sides (0.95 + 0.95 < 2 x 1); one
-// disc of diameter 1 fits.
-TEST(BroadPhase, RefusesAPeriodInWhichPairsTouchTwice) {
+/// Whether these bodies are refused; `range` is that of the law.
+bool refused(const std::vector<double>& radii, const std::vector<std::uint8_t>& fixed, double range,
+             double period) {
     PeriodicBox box;
-    box.length = {1.9, 0.0, 0.0};
-    EXPECT_THROW(check_periods({0.5, 0.5}, box), std::invalid_argument);
-    EXPECT_NO_THROW(check_periods({0.5}, box));
-    box.length = {2.0, 0.0, 0.0};
-    EXPECT_NO_THROW(check_periods({0.5, 0.5}, box));
+    box.length = {period, 0.0, 0.0};
+    try {
+        check_periods(radii, fixed, range, box);
+    } catch (const std::invalid_argument&) {
+        return true;
+    }
+    return false;
+}
+
+// Two discs of radius 0.5 in a period of 2 can touch on both sides (1 + 1 = 2 x 1); one disc of
+// diameter 1 fits, and so do two that are both fixed.
+TEST(BroadPhase, RefusesAPeriodInWhichPairsTouchTwice) {
+    for (const double period : {1.9, 2.0}) {
+        EXPECT_TRUE(refused({0.5, 0.5}, {0, 0}, 0.0, period));
+        EXPECT_TRUE(refused({0.5, 0.5}, {0, 1}, 0.0, period));
+        EXPECT_FALSE(refused({0.5, 0.5}, {1, 1}, 0.0, period));
+        EXPECT_FALSE(refused({0.5}, {0}, 0.0, period));
+    }
+    EXPECT_FALSE(refused({0.5, 0.5}, {0, 0}, 0.0, 2.0001));
+    EXPECT_TRUE(refused({0.5}, {0}, 0.0, 0.9)) << "a disc that overlaps with its image";
+    // The largest two are fixed: the widest pair that can touch is 0.75 + 0.25.
+    EXPECT_TRUE(refused({0.75, 0.5, 0.25}, {1, 1, 0}, 0.0, 2.0));
+    EXPECT_FALSE(refused({0.75, 0.5, 0.25}, {1, 1, 0}, 0.0, 2.01));
+}
+
+// A law that reaches 0.3 acts on both sides up to a period of 2 x 1 + 2 x 0.3.
+TEST(BroadPhase, RefusesAPeriodInWhichPairsAttractTwice) {
+    EXPECT_TRUE(refused({0.5, 0.5}, {0, 0}, 0.3, 2.2));
+    EXPECT_TRUE(refused({0.5, 0.5}, {0, 0}, 0.3, 2.5999));
+    EXPECT_FALSE(refused({0.5, 0.5}, {0, 0}, 0.3, 2.6001));
+    EXPECT_FALSE(refused({0.5}, {0}, 0.3, 1.0));
 }
 
 }  // namespace

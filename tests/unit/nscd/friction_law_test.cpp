@@ -4,6 +4,8 @@
 // mu_d = 0.3, g = 1.
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "scenes.hpp"
 
 namespace turbidite::nscd {
@@ -11,7 +13,8 @@ namespace {
 
 constexpr double mu_s = 0.5, mu_d = 0.3, dt = 0.01;
 
-Engine block_on_slope(double slope, double speed) {
+/// On a plane of the block's own material, or with a friction of its own instead.
+Engine block_on_slope(double slope, double speed, std::optional<double> friction = std::nullopt) {
     EngineSettings settings = scenes::exact(mu_d, 1e-13);
     settings.gravity = scenes::tilted(std::atan(slope));
     settings.law.friction = "static-dynamic";
@@ -19,8 +22,8 @@ Engine block_on_slope(double slope, double speed) {
     surface.friction = mu_d;
     surface.static_friction = mu_s;
     settings.surfaces = {surface};
-    Wall plane = scenes::floor(0.0);
-    plane.material = 0;
+    Wall plane = scenes::floor(friction.value_or(0.0));
+    plane.material = friction ? -1 : 0;
     Engine engine(settings, scenes::discs, {plane});
     engine.bodies().add(scenes::disc(1, 0.0, 0.5));
     engine.bodies().rotation_blocked[0] = 1;
@@ -36,6 +39,20 @@ double speed_after(Engine& engine, double time) {
 TEST(StaticDynamic, HoldsUpToTheStaticCoefficient) {
     Engine engine = block_on_slope(0.999 * mu_s, 0.0);
     EXPECT_NEAR(speed_after(engine, 1.0), 0.0, 1e-13);
+}
+
+// A wall with a friction of its own has the static one in the same ratio: none at all if it is
+// smooth, 0.1 with 0.06, and the block's own with the block's own.
+TEST(StaticDynamic, AWallWithItsOwnFrictionHoldsInProportion) {
+    const double slope = 0.05, alpha = std::atan(slope);
+    Engine smooth = block_on_slope(slope, 0.0, 0.0);
+    EXPECT_NEAR(speed_after(smooth, 1.0), std::sin(alpha), 1e-12);
+    Engine holds = block_on_slope(0.099, 0.0, 0.06);
+    EXPECT_NEAR(speed_after(holds, 1.0), 0.0, 1e-13);
+    Engine slides = block_on_slope(0.101, 0.0, 0.06);
+    EXPECT_GT(speed_after(slides, 1.0), 0.03);
+    Engine own = block_on_slope(0.999 * mu_s, 0.0, mu_d);
+    EXPECT_NEAR(speed_after(own, 1.0), 0.0, 1e-13);
 }
 
 // It begins to slide: one step with the static coefficient, all others with the sliding one.

@@ -161,6 +161,23 @@ TEST(SpaceWalls, AJointIsTouchedOnceOrNotAtAll) {
     EXPECT_GT(dropped, 100);
 }
 
+/// A thick cylinder ends at a thin disc that lies on it. Whichever of them is the first, a sphere
+/// beyond their rim is held by the round edge of the thicker.
+TEST(SpaceWalls, AtARimOfWallsOfTwoThicknessesTheThickerHolds) {
+    const Vec3 y{0, 1, 0};
+    std::vector<Wall> walls = {scenes::round_wall(6, {}, y, {4.0, 0.0}, {4.0, -4.0}),
+                               scenes::round_wall(7, {}, y, {4.0, 0.0}, {0.0, 0.0})};
+    walls[0].half_thickness = 0.5;
+    for (int order = 0; order < 2; ++order, std::swap(walls[0], walls[1]))
+        for (const Vec3& centre : {Vec3{4.3, 0.4, 0.0}, Vec3{4.0, 0.6, 0.0}, Vec3{4.6, 0.1, 0.0}}) {
+            const double distance = norm(centre - Vec3{4, 0, 0});
+            double smallest = far;
+            for (const ContactPoint& point : points_at(walls, centre, 0.25))
+                smallest = std::min(smallest, point.gap);
+            EXPECT_NEAR(smallest, distance - 0.25 - 0.5, 1e-12) << order << " " << centre[0];
+        }
+}
+
 /// A sphere slides along a cylinder of two pieces, given in either order: without the rule of
 /// joints the rim of the next piece would lift it.
 TEST(SpaceWalls, ASphereSlidesOverAJointUnhindered) {

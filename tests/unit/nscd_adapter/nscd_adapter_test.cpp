@@ -275,7 +275,7 @@ TEST(NscdAdapter, RefusesImpossibleCyclicSides) {
     const std::string narrow = refusal<std::invalid_argument>([&] {
         NscdAdapter().initialise(settings, discs, {grain_at(1, 0.5, 5), grain_at(2, 0.5, 7)});
     });
-    EXPECT_TRUE(contains(narrow, "at least 2")) << narrow;
+    EXPECT_TRUE(contains(narrow, "more than 2")) << narrow;
 }
 
 // Discs at distance 0.95 overlap by 0.05; the wall at 0 is overlapped by 0.02.

@@ -16,11 +16,6 @@ constexpr double same_rim = 1e-9;
 // that rounding never leaves none.
 constexpr double no_nearer = 1e-9;
 
-double size_of(const Wall& wall) {
-    const auto& [p, q] = wall.meridian;
-    return std::max({p.radius, q.radius, std::abs(q.height - p.height)});
-}
-
 /// Heights along the axis of `from` are base + sense * height of `wall`.
 struct OnAxis {
     double base, sense;
@@ -59,6 +54,9 @@ WallJoints::WallJoints(const std::vector<Wall>& walls) {
 void WallJoints::join_pair(const std::vector<Wall>& walls, std::size_t i, std::size_t j) {
     const Wall &own = walls[i], &other = walls[j];
     const double tolerance = same_rim * std::max(size_of(own), size_of(other));
+    // Of two walls of different thickness the thicker one ends at the rim, with a round edge that
+    // only its own point has.
+    if (std::abs(own.half_thickness - other.half_thickness) > tolerance) return;
     if (!same_axis(own, other, tolerance)) return;
     const OnAxis on{dot(other.point - own.point, own.normal),
                     dot(own.normal, other.normal) > 0.0 ? 1.0 : -1.0};

@@ -7,7 +7,8 @@
 //     o . t_i <= 0   for all i,   o rim to centre, t_i along meridian i from the rim
 //
 // Then all these walls have the point, and the first of them keeps it. Otherwise the point is none:
-// it would stop a sphere that rolls over a joint.
+// it would stop a sphere that rolls over a joint. Only walls of one thickness are joined: where it
+// changes, the surface has a step, and each wall keeps its own point at the rim.
 #pragma once
 
 #include <array>
@@ -23,8 +24,8 @@ struct Rim {
     bool first = true;               ///< no wall of a lower index has this rim
 };
 
-/// Of all round walls, wherever they are now. Rims that coincide are joined, however their walls
-/// move.
+/// Of all round walls, wherever they are now. Rims that coincide are joined if their walls have the
+/// same thickness, however these move.
 class WallJoints {
  public:
     WallJoints() = default;
