@@ -80,7 +80,9 @@ void check_places(const nscd::Bodies& bodies, const std::vector<Border>& borders
         for (std::size_t i = 0; i < bodies.size(); ++i)
             if (signed_distance(border.plane, bodies.position[i]) < 0.0)
                 throw PhysicsRefused(named(bodies, i) + " has its centre beyond the " +
-                                     border.name + " wall, " + when + "; use a smaller time.step");
+                                     border.name + " wall, " + when +
+                                     (bodies.fixed[i] ? "; its prescribed motion takes it there"
+                                                      : "; use a smaller time.step"));
     }
 }
 

@@ -106,7 +106,10 @@ PlacedCase place(const Settings& settings, const CaseEntries& entries,
     });
     check([&] { return check_periods(start.grains, settings, entries); });
     check([&] {
-        InnerWalls read = walls_of(settings, entries, start.grains, forms, folder);
+        // Poured grains will be elsewhere than what stands in for them.
+        const Packing none;
+        InnerWalls read =
+            walls_of(settings, entries, is_poured(settings) ? none : start.grains, forms, folder);
         placed.walls = std::move(read.walls);
         return std::move(read.problems);
     });

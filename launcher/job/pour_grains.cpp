@@ -174,8 +174,12 @@ fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
     const WithoutReport without;
     while (!is_at_rest(folder.history(), tolerance)) {
         if (next_end(folder.history()) > longest)
-            end_early(folder, ExitCode::participant_failed,
-                      fmt::format("they still move after {} t_c", longest));
+            throw Failure(ExitCode::participant_failed,
+                          fmt::format("the grains are not poured: they still move after {} D/u_c, "
+                                      "u_c = sqrt(g D)\n  Other friction or restitution may bring "
+                                      "them to rest. The pouring is in {}; without this folder it "
+                                      "begins anew. The run itself was not started.",
+                                      longest, folder.root.string()));
         const JobOutcome outcome = play_piece(pouring, folder, site);
         if (outcome.code != ExitCode::done)
             end_early(folder, outcome.code, "the dry run ended early");

@@ -168,6 +168,13 @@ std::string without_polygons(const Settings& s) {
     return is_polygon(s) || s.has("grains.file") ? "" : "without grains.shape: polygon";
 }
 
+void poured_without_walls(const Settings& s, std::vector<std::string>& notes) {
+    if (is(s, "grains.generator", "poured") && s.has("domain.walls_file") && !are_from_a_file(s))
+        notes.push_back(
+            "grains are poured into grains.region without the walls of domain.walls_file, and the "
+            "run is refused if these cut grains: leave room for them beside or above the packing");
+}
+
 }  // namespace
 
 KeyGroup grains_keys() {
@@ -334,16 +341,20 @@ KeyGroup grains_keys() {
                  .help = "seed of all random numbers",
                  .idle = without_chance},
             },
-        .rules = {
-            {"grains.vertices", {}, vertices_are_convex},
-            {"grains.shape", {"grains.generator"}, lattice_has_discs},
-            {"grains.radius", {"grains.generator"}, lattice_has_radius},
-            {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
-            {"grains.region", {"domain.size"}, region_in_box},
-            {"grains.cylinder", {"domain.size", "domain.left", "domain.bottom"}, cylinder_in_box},
-            {"grains.cylinder", {"grains.generator"}, cylinder_is_the_only_region},
-            {"grains.density_ratio", {"fluid.enabled", "coupling.scheme"}, light_grains_need_joint},
-            {"grains.density_ratio", {"scales.kind"}, weighs_something}}};
+        .rules = {{"grains.vertices", {}, vertices_are_convex},
+                  {"grains.shape", {"grains.generator"}, lattice_has_discs},
+                  {"grains.radius", {"grains.generator"}, lattice_has_radius},
+                  {"grains.size_ratio", {"grains.generator"}, lattice_has_one_size},
+                  {"grains.region", {"domain.size"}, region_in_box},
+                  {"grains.cylinder",
+                   {"domain.size", "domain.left", "domain.bottom"},
+                   cylinder_in_box},
+                  {"grains.cylinder", {"grains.generator"}, cylinder_is_the_only_region},
+                  {"grains.density_ratio",
+                   {"fluid.enabled", "coupling.scheme"},
+                   light_grains_need_joint},
+                  {"grains.density_ratio", {"scales.kind"}, weighs_something}},
+        .notes = poured_without_walls};
 }
 
 }  // namespace turbidite

@@ -367,6 +367,24 @@ TEST_F(SpaceCase, StandInsAreNotTakenForTooSmall) {
     EXPECT_SAYS(refusal("", with(tight, {"fluid.cells_per_diameter=5"})), "cells");
 }
 
+// A belt would stir the grains for ever, and no place of a stand-in tells whether a wall cuts a
+// grain.
+TEST_F(SpaceCase, GrainsArePouredWithoutWallsInside) {
+    folder.write("walls.csv",
+                 "id,kind,x,y,z,ax,ay,az,bx,by,bz,vx,vy,vz\n"
+                 "1,plate,0,5,0,3,0,0,0,0,3,1,0,0\n");
+    const std::vector<std::string> given = {"grains.generator=poured", "grains.region=[6, 9, 6]",
+                                            "domain.walls_file=walls.csv"};
+    const ResolvedCase resolved = load("", given);
+    EXPECT_FALSE(resolved.walls_csv.empty());
+    EXPECT_NE(std::find_if(resolved.notes.begin(), resolved.notes.end(),
+                           [](const std::string& note) {
+                               return note.find("without the walls") != std::string::npos;
+                           }),
+              resolved.notes.end());
+    EXPECT_TRUE(load("", with(given, pouring_changes(resolved))).walls_csv.empty());
+}
+
 TEST_F(SpaceCase, ProbesOutsideTheGroundDoNotPreventPouring) {
     const std::vector<std::string> wet = {"grains.generator=poured",  "grains.region=[6, 9, 6]",
                                           "fluid.enabled=true",       "fluid.reynolds=10",

@@ -153,7 +153,10 @@ std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
     // Nor does the number of ranks: spheres have the same digits on any.
     changes.push_back("grains.ranks=1");
     changes.push_back("grains.script=~");
-    if (settings.has("grains.extra_file")) changes.push_back("grains.extra_file=~");
+    // Walls inside would cut grains that begin at random places, and those that move would stir
+    // them.
+    for (const char* file : {"grains.extra_file", "domain.walls_file"})
+        if (settings.has(file)) changes.push_back(std::string(file) + "=~");
     append(changes, own_friction(settings));
     append(changes, own_scales(resolved));
     for (const char* plain : {"time.step=0.01", "time.end=10", "output.interval=1",
