@@ -85,6 +85,7 @@ class Scene:
 
     def begin_window(self):
         self.script.check()
+        self.script.check_walls()
 
     def play(self, participant):
         while participant.step():

@@ -27,6 +27,9 @@ class NoScript:
     def check(self, moved=None):
         pass
 
+    def check_walls(self):
+        pass
+
     def check_step(self):
         pass
 
@@ -39,6 +42,8 @@ class Script:
         self.file = file
         self.step, self.engines = O.dt, list(O.engines)
         self.bodies, self.count = {body.id: body for body in O.bodies}, len(O.bodies)
+        self.frictions = self._frictions()
+        self.walls = {i: self._place(body) for i, body in self.bodies.items() if not hasattr(body.shape, 'radius')}
         begin = (O.iter, self._motions())
         self._run()
         if O.iter != begin[0]:
@@ -46,7 +51,7 @@ class Script:
         self.check()
         for body, motion in self._motions().items():
             if motion != begin[1][body]:
-                self._refuse(f'moved body {body} or changed its mass, size or degrees of freedom',
+                self._refuse(f'moved body {body} or changed its mass, size, material or degrees of freedom',
                              'grains begin as the case says: use grains.file')
 
     def _run(self):
@@ -61,16 +66,33 @@ class Script:
     def _motion(body):
         state = body.state
         return (tuple(state.pos), tuple(state.ori), tuple(state.vel), tuple(state.angVel), state.mass,
-                tuple(state.inertia), state.blockedDOFs, getattr(body.shape, 'radius', None))
+                tuple(state.inertia), state.blockedDOFs, getattr(body.shape, 'radius', None), body.material.id)
+
+    @staticmethod
+    def _place(body):
+        return tuple(body.state.pos), tuple(body.state.vel), tuple(body.state.angVel)
+
+    @staticmethod
+    def _frictions():
+        return [getattr(material, 'frictionAngle', None) for material in O.materials]
 
     def check(self, moved=None):
         """Called before every window; `moved` is the id of a grain not moved by the coupling."""
         self.check_step()
         self._check_engines()
         self._check_bodies()
+        # Materials that the script has added follow those of the case.
+        if self._frictions()[:len(self.frictions)] != self.frictions:
+            self._refuse('changed the friction of a material', 'use contact.friction, or contact.materials')
         if moved is not None:
             self._refuse(f'moved grain {moved} or changed its velocity',
                          'the fluid also moves grains and would not see the change')
+
+    def check_walls(self):
+        """Called before every window where walls stay where they are."""
+        for i, place in self.walls.items():
+            if self._place(O.bodies[i]) != place:
+                self._refuse(f'moved wall {i}', 'walls stay where the case has them')
 
     def check_step(self):
         """Called before every step: with a longer O.dt grains would leave the domain within the window."""

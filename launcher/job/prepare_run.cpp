@@ -16,6 +16,7 @@
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/job/folder/openfoam_path.hpp"
 #include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/folder/run_on_disk.hpp"
 #include "launcher/job/launch_line.hpp"
@@ -155,9 +156,9 @@ namespace {
 OwnFolder folder_for(const fs::path& wanted, bool force) {
     // The trailing slash of `--out DIR/` would become an empty last part.
     const RunFolder folder{fs::path(fs::absolute(wanted / ".").lexically_normal()).parent_path()};
-    if (folder.root.string().find_first_of(" \t\n\"'") != std::string::npos)
-        throw folder_refused(folder.root, "has a space or a quote in its path",
-                             "OpenFOAM drops these from file names. Choose another --out.");
+    if (!openfoam_finds(folder.root))
+        throw folder_refused(folder.root, "has a space, a quote or a backslash in its path",
+                             "OpenFOAM changes these in file names. Choose another --out.");
     if (fs::exists(folder.root) && !fs::is_directory(folder.root))
         throw folder_refused(wanted, "is a file", "Choose another --out.");
     fs::create_directories(folder.root);

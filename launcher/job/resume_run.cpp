@@ -13,6 +13,7 @@
 #include "coupler/protocol/run_values.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/job/folder/openfoam_path.hpp"
 #include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/folder/run_on_disk.hpp"
 #include "launcher/job/folder/set_aside.hpp"
@@ -38,6 +39,15 @@ std::shared_ptr<RunLock> lock_of(const RunFolder& folder, const fs::path& as_giv
         throw refused(as_given, "is in use by a run that has not ended",
                       "Wait for it, or stop it: create a file STOP in the folder.");
     return lock;
+}
+
+/// The folder may have been moved since it was prepared.
+void require_path(const RunFolder& folder, const Settings& settings) {
+    const bool by_openfoam =
+        settings.flag("fluid.enabled") && fluid_program(settings) == FluidProgram::openfoam;
+    if (by_openfoam && !openfoam_finds(folder.root))
+        throw refused(folder.root, "has a space, a quote or a backslash in its path",
+                      "OpenFOAM changes these in file names. Rename the folder, or move it.");
 }
 
 struct Chosen {
@@ -312,6 +322,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     sets.remove_unfinished();
     const std::optional<Chosen> chosen = choose(folder, sets, say);
     const ResolvedCase resolved = load_run_folder(folder.root, overrides);
+    require_path(folder, resolved.settings);
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
     if (chosen) check_changes(folder, resolved, *chosen, overrides);
     // After the changes: a later time.end makes a run that was complete go on.

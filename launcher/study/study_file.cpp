@@ -7,6 +7,7 @@
 #include <cctype>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "coupler/keys/case_error.hpp"
 #include "coupler/keys/nearest_name.hpp"
@@ -62,13 +63,28 @@ void flatten(const std::string& prefix, const YAML::Node& node, std::vector<std:
     }
 }
 
+std::string key_of(const std::string& override_) {
+    return override_.substr(0, override_.find('='));
+}
+
+/// A key may be given in a group and with dots: the last one would count.
+void refuse_repeated(const YAML::Node& node, const std::string& what,
+                     const std::vector<std::string>& overrides, Complaints& complaints) {
+    std::set<std::string> seen;
+    for (const std::string& one : overrides)
+        if (!seen.insert(key_of(one)).second)
+            complaints.add(node, fmt::format("{} gives {} twice", what, key_of(one)),
+                           "A key has one value.", "Keep one of the two.");
+}
+
 std::vector<std::string> overrides_of(const YAML::Node& node, const std::string& what,
                                       Complaints& complaints) {
     std::vector<std::string> result;
     if (!node.IsDefined()) return result;
-    if (node.IsMap())
+    if (node.IsMap()) {
         flatten("", node, result);
-    else
+        refuse_repeated(node, what, result, complaints);
+    } else
         complaints.add(node, what + " contains no keys", "It is a map `key: value`.",
                        "Write for example set: {time.end: 20}.");
     return result;
@@ -115,13 +131,32 @@ void add_variants(const YAML::Node& node, StudyPart& part, Complaints& complaint
 
 void refuse_unknown_keys(const YAML::Node& node, const std::vector<std::string>& known,
                          Complaints& complaints) {
+    std::set<std::string> seen;
     for (const auto& item : node) {
         const std::string key = item.first.Scalar();
+        if (!seen.insert(key).second)
+            complaints.add(item.first, key + " is given twice", "Only the first would be read.",
+                           "Merge the two.");
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         complaints.add(item.first, key + " is unknown",
                        fmt::format("A study has {}.", fmt::join(known, ", ")),
                        "Did you mean " + nearest_name(key, known) + "?");
     }
+}
+
+/// A run cannot have the value of its variant and that of the sweep, and its name says both.
+void refuse_swept_in_variants(const YAML::Node& node, const StudyPart& part,
+                              Complaints& complaints) {
+    for (const SweepAxis& swept : part.axes)
+        for (const SweepAxis& variants : part.axes)
+            for (const SweepPoint& variant : variants.points)
+                for (const std::string& one : variant.overrides)
+                    if (variants.key == "variant" && key_of(one) == swept.key)
+                        complaints.add(node,
+                                       fmt::format("{}: variant {} sets {}, which is swept",
+                                                   part.name, variant.text, swept.key),
+                                       "A key of a run has one value.",
+                                       "Take it out of the variants, or of the sweep.");
 }
 
 StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::path& folder,
@@ -156,6 +191,7 @@ StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::p
     add_variants(node["variants"], part, complaints);
     const YAML::Node sweep = node["sweep"];
     if (sweep.IsDefined() && sweep.IsMap()) add_swept_keys("", sweep, part, complaints);
+    refuse_swept_in_variants(node, part, complaints);
     if (sweep.IsDefined() && !sweep.IsMap())
         complaints.add(sweep, "sweep contains no keys", "It is a map `key: [values]`.",
                        "Write for example sweep: {random.seed: [1, 2, 3]}.");
@@ -240,6 +276,7 @@ bool is_folder_name(const std::string& name) {
 }
 
 bool is_study(const fs::path& file) {
+    if (!is_file(file)) return false;
     try {
         const YAML::Node root = YAML::LoadFile(file.string());
         return root.IsMap() && (root["parts"].IsDefined() || root["case"].IsDefined());

@@ -65,26 +65,46 @@ std::vector<PlannedRun> along(const std::vector<PlannedRun>& runs, const SweepAx
     return result;
 }
 
-/// The axis, or the one value that `full` or `quick` gives to its key.
+/// What the command line asks for.
+struct Asked {
+    std::vector<std::string> overrides;  ///< key=value
+    bool quick;
+};
+
+/// --set takes groups, `contact={friction: 0.5}`; what is not key=value is refused with the cases.
+std::vector<std::string> with_flat_keys(const std::vector<std::string>& overrides) {
+    std::vector<std::string> result;
+    for (const std::string& text : overrides)
+        for (const CaseEntry& entry : entries_of_override(text).entries)
+            result.push_back(entry.key + "=" + (entry.is_null ? "~" : entry.value));
+    return result;
+}
+
+/// The axis, or the one value that `full`, `quick` or --set gives to its key; of several the last.
 SweepAxis at_level(const SweepAxis& axis, const std::vector<std::string>& level) {
+    SweepAxis result = axis;
     for (const std::string& override_ : level)
         if (override_.rfind(axis.key + "=", 0) == 0)
-            return {axis.key, {{override_.substr(axis.key.size() + 1), {override_}}}};
-    return axis;
+            result = {axis.key, {{override_.substr(axis.key.size() + 1), {override_}}}};
+    return result;
 }
 
-const std::vector<std::string>& level_of(const StudyPart& part, bool quick) {
-    return quick ? part.quick : part.full;
+/// Keys of every run of the part beside `set`: those of `full` or `quick`, then those of --set.
+std::vector<std::string> level_of(const StudyPart& part, const Asked& asked) {
+    std::vector<std::string> level = asked.quick ? part.quick : part.full;
+    level.insert(level.end(), asked.overrides.begin(), asked.overrides.end());
+    return level;
 }
 
-std::vector<PlannedRun> runs_of(const StudyPart& part, bool quick) {
+std::vector<PlannedRun> runs_of(const StudyPart& part, const Asked& asked) {
     std::vector<PlannedRun> runs = {{.part = part.name,
                                      .name = {},
                                      .case_file = part.case_file,
                                      .overrides = part.overrides,
                                      .values = {}}};
-    const std::vector<std::string>& level = level_of(part, quick);
-    runs[0].overrides.insert(runs[0].overrides.end(), level.begin(), level.end());
+    const std::vector<std::string>& own = asked.quick ? part.quick : part.full;
+    runs[0].overrides.insert(runs[0].overrides.end(), own.begin(), own.end());
+    const std::vector<std::string> level = level_of(part, asked);
     for (const SweepAxis& axis : part.axes) runs = along(runs, at_level(axis, level), part);
     if (part.axes.empty()) runs[0].name = part.case_file.stem().string();
     return runs;
@@ -112,16 +132,16 @@ void check_name(const PlannedRun& run, std::vector<CaseProblem>& problems) {
 /// Every run is resolved before the first one starts.
 constexpr double most_runs = 10000;
 
-double number_of_runs(const StudyPart& part, bool quick) {
+double number_of_runs(const StudyPart& part, const Asked& asked) {
     double runs = 1.0;
     for (const SweepAxis& axis : part.axes)
-        runs *= static_cast<double>(at_level(axis, level_of(part, quick)).points.size());
+        runs *= static_cast<double>(at_level(axis, level_of(part, asked)).points.size());
     return runs;
 }
 
-void check_number(const Study& study, bool quick) {
+void check_number(const Study& study, const Asked& asked) {
     double runs = 0.0;
-    for (const StudyPart& part : study.parts) runs += number_of_runs(part, quick);
+    for (const StudyPart& part : study.parts) runs += number_of_runs(part, asked);
     if (runs <= most_runs) return;
     throw CaseRefused({problem_at(study.name, 0, fmt::format("has {:g} runs", runs),
                                   fmt::format("A study has {} runs at most.", most_runs),
@@ -150,13 +170,14 @@ void require_quick(const Study& study, std::vector<CaseProblem>& problems) {
 
 std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::string>& overrides,
                                    bool quick) {
-    check_number(study, quick);
+    const Asked asked{with_flat_keys(overrides), quick};
+    check_number(study, asked);
     std::vector<CaseProblem> problems = study.problems;
     if (quick) require_quick(study, problems);
     std::vector<PlannedRun> plan;
     for (const StudyPart& part : study.parts)
         if (!part.case_file.empty())
-            for (PlannedRun& run : runs_of(part, quick)) plan.push_back(std::move(run));
+            for (PlannedRun& run : runs_of(part, asked)) plan.push_back(std::move(run));
     find_equal_names(plan, problems);
     for (const PlannedRun& run : plan) check_name(run, problems);
     std::set<std::string> told;

@@ -147,6 +147,9 @@ TEST_F(UsersScript, WhatBelongsToTheCaseIsRefusedByName) {
     expect_refused("from yade import utils\nO.bodies.append(utils.sphere((1, 1, 0), 0.1))\n",
                    "added 1 bodies");
     expect_refused("O.bodies[4].state.vel = (1, 0, 0)\n", "moved body 4");
+    for (const std::string& host : {std::string(), md})
+        expect_refused("for material in O.materials: material.frictionAngle = 0.1\n",
+                       "changed the friction of a material", host);
     expect_refused("1 / 0\n", "ZeroDivisionError");
     expect_refused("O.engines = O.engines[:-1]\n", "removed the engine NewtonIntegrator", md);
     expect_refused("O.engines = O.engines[::-1]\n", "reordered the engines of the case", md);
@@ -161,6 +164,8 @@ TEST_F(UsersScript, WhatAnEngineOfTheScriptDoesIsLookedAtInEveryWindow) {
                    "moved grain 0");
     EXPECT_GE(record().at("windows_done"), 3);
     expect_refused("def meddle():\n    if O.iter > 300: O.dt = 1.0\n" + every, "changed O.dt", md);
+    expect_refused("def meddle():\n    O.bodies[0].state.vel = (2, 0, 0)\n" + every, "moved wall 0",
+                   md);
 }
 
 TEST_F(UsersScript, AnErrorInOneOfItsEnginesEndsTheRun) {

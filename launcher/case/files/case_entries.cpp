@@ -64,7 +64,9 @@ void report_repeated(CaseEntries& result) {
              .key = entry.key,
              .value = entry.value,
              .fault = "is given twice",
-             .allowed = fmt::format("It is already {} in line {}.", first->value, first->line),
+             .allowed = first->line > 0
+                            ? fmt::format("It is already {} in line {}.", first->value, first->line)
+                            : fmt::format("It is already {}.", first->value),
              .remedy = "Keep one of the two."});
     }
 }
@@ -101,20 +103,6 @@ void read_file(const std::filesystem::path& file, CaseEntries& result) {
         read_document(text, {file.filename().string()}, result);
 }
 
-CaseEntries read_override(const std::string& text) {
-    const Place place{"--set", false};
-    CaseEntries result;
-    const auto equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-        result.problems.push_back(problem_at("--set " + text, 0, "has no value",
-                                             "An override is key=value.",
-                                             "Write for example --set contact.friction=0.5."));
-        return result;
-    }
-    read_document(text.substr(0, equals) + ": " + text.substr(equals + 1), place, result);
-    return result;
-}
-
 void replace(const CaseEntry& entry, std::vector<CaseEntry>& entries) {
     const auto same = [&](const CaseEntry& other) { return other.key == entry.key; };
     entries.erase(std::remove_if(entries.begin(), entries.end(), same), entries.end());
@@ -130,13 +118,28 @@ CaseEntries case_entries_of(const std::string& text, const std::string& source) 
     return result;
 }
 
+CaseEntries entries_of_override(const std::string& text) {
+    const Place place{"--set", false};
+    CaseEntries result;
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+        result.problems.push_back(problem_at("--set " + text, 0, "has no value",
+                                             "An override is key=value.",
+                                             "Write for example --set contact.friction=0.5."));
+        return result;
+    }
+    read_document(text.substr(0, equals) + ": " + text.substr(equals + 1), place, result);
+    report_repeated(result);
+    return result;
+}
+
 CaseEntries read_case_entries(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides) {
     CaseEntries result;
     read_file(file, result);
     report_repeated(result);
     for (const std::string& text : overrides) {
-        CaseEntries extra = read_override(text);
+        CaseEntries extra = entries_of_override(text);
         for (const CaseEntry& entry : extra.entries) replace(entry, result.entries);
         append(result.problems, std::move(extra.problems));
     }

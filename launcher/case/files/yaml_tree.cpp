@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <sstream>
+#include <vector>
 
 #include "coupler/protocol/received.hpp"
 
@@ -79,7 +80,11 @@ int tab_line(const std::string& text) {
 
 YAML::Node yaml_tree(const std::string& text) {
     try {
-        const YAML::Node root = YAML::Load(text);
+        const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+        if (documents.size() > 1)
+            throw YamlFault{line_of(documents[1]), "begins a second document, which is not read",
+                            "Remove it, or write it to a file of its own."};
+        const YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
         Walk().through(root);
         return root;
     } catch (const YAML::Exception& error) {

@@ -11,6 +11,7 @@
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/scene/mesh_rows.hpp"
+#include "coupler/protocol/scene/splitting.hpp"
 #include "coupler/shapes/shortest_period.hpp"
 #include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "launcher/case/case_rules.hpp"
@@ -128,6 +129,39 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
     return rules;
 }
 
+/// Volume, in the plane area, of what the fluid sees of a grain over that of the grain.
+double seen_volume(const Settings& settings, double radius) {
+    const double shift = in_space(settings) ? settings.real("fluid.surface_shift") /
+                                                  settings.real("fluid.cells_per_diameter")
+                                            : 0.0;
+    // (R_h/R)^d with R_h/R = h + s/(cells per R)
+    return std::pow(settings.real("fluid.hydrodynamic_radius") + shift / radius,
+                    in_space(settings) ? 3 : 2);
+}
+
+/// Where pressure does not know the grains, a projection leaves a body the share 1/(1 + C_a) of its
+/// velocity, C_a the added mass over rho_f V, and step 5 gives it back what (rho_r - 1) stands for:
+/// a factor (rho_r - 1 + 1/(1 + C_a))/rho_r per window, whatever its length. It is below -1 for
+/// rho_r < C_a/(2 (1 + C_a)): 1/4 for a disc by itself, more for grains among others and near walls
+/// (docs/decisions/multipliers.md).
+std::vector<GrainRule> rules_of_splitting(const Settings& settings, std::size_t grains) {
+    if (splitting_of(settings).rigid_grains) return {};
+    const double least = grains > 1 ? 0.5 : 0.25;
+    const auto density = [ratio = settings.real("grains.density_ratio")](const PlacedGrain& g) {
+        return g.density.value_or(ratio);
+    };
+    return {{[=](const PlacedGrain& g) {
+                 return !g.prescribed && density(g) < least * seen_volume(settings, g.radius);
+             },
+             [density](const PlacedGrain& g) { return fmt::format("density = {}", density(g)); },
+             fmt::format("With fluid.splitting: {} the velocity of a grain as light as this grows "
+                         "from window to window, whatever their length: a density of at least {} "
+                         "times that of the fluid it displaces{}.",
+                         settings.text("fluid.splitting"), least,
+                         grains > 1 ? " (0.25 for a single grain)" : ""),
+             "Use fluid.splitting: explicit-multiplier."}};
+}
+
 CaseProblem refused(const StartGrains& start, std::size_t i, const GrainRule& rule) {
     const PlacedGrain& grain = start.grains[i];
     const auto& lines = start.source.lines;
@@ -203,7 +237,10 @@ CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
     };
     add(rules_of_adapter(adapter, start, forms));
     add(rules_of_contact(settings, forms));
-    if (settings.flag("fluid.enabled")) add(rules_of_fluid(settings));
+    if (settings.flag("fluid.enabled")) {
+        add(rules_of_fluid(settings));
+        add(rules_of_splitting(settings, start.grains.size()));
+    }
     CaseProblems problems;
     for (const GrainRule& rule : rules) {
         const auto at = std::find_if(start.grains.begin(), start.grains.end(), rule.broken);

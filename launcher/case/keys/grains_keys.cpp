@@ -223,7 +223,9 @@ KeyGroup grains_keys() {
                  .fallback = "1.5",
                  .range = positive,
                  .help = "density of the grains over that of the fluid",
-                 .allowed = "A ratio above 0; in a fluid above 1 unless coupling.scheme is joint.",
+                 .allowed =
+                     "A ratio above 0; in a fluid above 1 unless coupling.scheme is joint, and "
+                     "with fluid.splitting: marchuk-yanenko at least 0.5.",
                  .remedy = "Use for example 1.5."},
                 {.name = "grains.generator",
                  .type = KeyType::choice,

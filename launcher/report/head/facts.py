@@ -56,10 +56,22 @@ def units(case):
     return 'SI' if case.get('scales.kind') == 'physical' else 'in units D = u_c = rho_f = 1'
 
 
+def differing_scales(runs):
+    """What is told of runs that have other values of u_c, D or t_c: each is in its own. Empty if all have the same."""
+    scales = [tuple(run.record.get(name) for name in ('D', 'u_c', 't_c')) for run in runs]
+    if len(set(scales)) < 2:
+        return ''
+    each = '; '.join(f'{run.folder.name}: D = {d:g} m, u_c = {u:g} m/s, t_c = {t:g} s'
+                     for run, (d, u, t) in zip(runs, scales) if None not in (d, u, t))
+    return f'The scales of these runs differ, and each is shown in its own: differences are not those of one unit. {each}.'
+
+
 def units_in_words(run):
     """What the units of all numbers and curves are."""
-    velocity = {'avalanche': '√(g D)', 'sedimentation': 'that of settling (Topin 2011, Eq. 21)',
-                'physical': 'scales.velocity'}.get(run.case.get('scales.kind'))
+    settling = 'that of settling (Topin 2011, Eq. 21)'
+    given = run.case.get('scales.velocity') is not None
+    velocity = {'avalanche': '√(g D)', 'sedimentation': settling,
+                'physical': 'scales.velocity' if given else settling}.get(run.case.get('scales.kind'))
     return ('Units: D is the diameter of the grains, u_c the characteristic velocity' + (f', {velocity}' if velocity else '')
             + ', and t_c = D/u_c the time to move by D with it; ρ_s and ρ_f are the densities of grains and fluid, m is the '
             'mass of a grain, g gravity.')

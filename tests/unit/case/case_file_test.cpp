@@ -219,6 +219,14 @@ TEST_F(CaseFile, AMergeKeyIsCalledAMergeKey) {
     EXPECT_EQ(text.find("Did you mean"), std::string::npos) << text;
 }
 
+TEST_F(CaseFile, AKeyIsGivenOnceInAnOverride) {
+    EXPECT_SAYS(refusal("", {"contact={friction: 0.5, friction: 0.1}"}), "is given twice");
+}
+
+TEST_F(CaseFile, ASecondDocumentIsRefused) {
+    EXPECT_SAYS(refusal("---\ncontact: {friction: 0.3}\n"), "begins a second document");
+}
+
 // The parser calls a tab an illegal map value, in this or in another line.
 TEST_F(CaseFile, ATabIsCalledATab) {
     const std::string text = refusal("contact:\n\tfriction: 0.3\n");

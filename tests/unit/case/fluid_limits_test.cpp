@@ -31,6 +31,24 @@ TEST_F(FluidLimits, LightGrainsInAFluidNeedJoint) {
                 "grains.density_ratio = 0");
 }
 
+// Step 1 of the paper's splitting takes more from a light grain than step 5 gives it back.
+TEST_F(FluidLimits, VeryLightGrainsNeedAPressureThatKnowsThem) {
+    const auto said = [this](const char* ratio, const char* grains, const char* splitting) {
+        return refusal("", {std::string("grains.density_ratio=") + ratio,
+                            std::string("grains.count=") + grains,
+                            std::string("fluid.splitting=") + splitting, "coupling.scheme=joint"});
+    };
+    EXPECT_SAYS(said("0.4", "20", "marchuk-yanenko"), "Use fluid.splitting: explicit-multiplier");
+    EXPECT_EQ(said("0.5", "20", "marchuk-yanenko"), "");
+    EXPECT_SAYS(said("0.2", "1", "marchuk-yanenko"), "at least 0.25 times");
+    EXPECT_EQ(said("0.3", "1", "marchuk-yanenko"), "");
+    EXPECT_EQ(said("0.2", "20", "explicit-multiplier"), "");
+    // What counts is the fluid that it displaces, (R_h/R)^2 of it.
+    EXPECT_EQ(refusal("", {"grains.density_ratio=0.4", "fluid.hydrodynamic_radius=0.85",
+                           "fluid.splitting=marchuk-yanenko", "coupling.scheme=joint"}),
+              "");
+}
+
 TEST_F(FluidLimits, ABalanceWarnsBeforeItEndsTheRun) {
     const std::string text = refusal("", {"limits.grain_balance_hard=1e-9"});
     EXPECT_SAYS(text, "limits.grain_balance_hard = 1e-09");

@@ -105,7 +105,9 @@ TEST(PrepareRun, RefusesAFileAndPathsOpenFoamCannotRead) {
     const ScratchFolder scratch;
     scratch.write("file", "x");
     EXPECT_SAYS(refusal({.out = scratch.path() / "file", .force = true}), "is a file");
-    EXPECT_SAYS(refusal({.out = scratch.path() / "my run"}), "has a space or a quote in its path");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "my run"}),
+                "has a space, a quote or a backslash in its path");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "back\\slash"}), "backslash in its path");
     EXPECT_SAYS(refusal({.out = scratch.path() / "file/run"}), "cannot be created");
 }
 

@@ -249,6 +249,36 @@ sweep: {random.seed: [1, 2, 3], contact.friction: [0, 0.5]}
     EXPECT_EQ(quick[1].values[0].second, "2");
 }
 
+// Names, tables and figures say what was played.
+TEST_F(StudyTest, SetReplacesTheListOfASweptKey) {
+    const std::string sweep = "{case: column.yaml, sweep: {contact.friction: [0.1, 0.2]}}";
+    for (const std::string set : {"contact.friction=0.9", "contact={friction: 0.9}"}) {
+        const auto runs = plan(sweep, {set});
+        ASSERT_EQ(runs.size(), 1u) << set;
+        EXPECT_EQ(runs[0].path(), "study/friction-0.9");
+        EXPECT_EQ(runs[0].values[0].second, "0.9");
+        EXPECT_EQ(runs[0].resolve().settings.real("contact.friction"), 0.9);
+    }
+    EXPECT_EQ(plan(sweep, {"time.end=0.5"}).size(), 2u);
+}
+
+TEST_F(StudyTest, AVariantDoesNotSetWhatIsSwept) {
+    EXPECT_SAYS(refusal("{case: column.yaml, variants: {rough: {contact: {friction: 0.9}}}, "
+                        "sweep: {contact.friction: [0.2]}}"),
+                "variant rough sets contact.friction, which is swept");
+}
+
+TEST_F(StudyTest, KeysAreGivenOnce) {
+    EXPECT_SAYS(
+        refusal("{case: column.yaml, set: {contact.friction: 0.1, contact: {friction: 0.4}}}"),
+        "set gives contact.friction twice");
+    EXPECT_SAYS(
+        refusal("case: column.yaml\nsweep: {random.seed: [3]}\nsweep: {random.seed: [4]}\n"),
+        "sweep is given twice");
+    EXPECT_SAYS(refusal("case: column.yaml\n---\ncase: column.yaml\n"), "second document");
+    EXPECT_FALSE(is_study(scratch.path()));
+}
+
 TEST_F(StudyTest, FiguresAreKnownSets) {
     EXPECT_EQ(study("{case: column.yaml, figures: paper}").figures, "paper");
     EXPECT_SAYS(refusal("{case: column.yaml, figures: papers}"), "figures: papers is unknown");

@@ -97,6 +97,16 @@ class KeyNumbers(unittest.TestCase):
         self.assertIn('u_c the characteristic velocity, √(g D), and t_c = D/u_c',
                       facts.units_in_words(run_with(case={'scales.kind': 'avalanche'})))
 
+    def test_a_velocity_that_is_not_given_is_that_of_settling(self):
+        given = {'scales.kind': 'physical', 'scales.velocity': '0.1'}
+        self.assertIn('scales.velocity', facts.units_in_words(run_with(case=given)))
+        self.assertIn('settling', facts.units_in_words(run_with(case={**given, 'scales.velocity': None})))
+
+    def test_runs_with_other_scales_are_told_apart(self):
+        one, other = [run_with(record={'D': 1e-3, 'u_c': u, 't_c': 1e-3 / u}) for u in (0.07, 0.05)]
+        self.assertEqual(facts.differing_scales([one, one]), '')
+        self.assertIn('u_c = 0.05 m/s', facts.differing_scales([one, other]))
+
 
 class Contents(unittest.TestCase):
     def test_link_to_every_heading_also_later_and_folded_ones(self):
