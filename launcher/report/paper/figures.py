@@ -119,6 +119,7 @@ def relaxation_times(runs):
         draw_estimate(axes, darcy.permeabilities(runs))
     # Beside the axes: points, bounds and lines together reach every corner.
     axes.legend(fontsize=8, loc='upper left', bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)
+    figure.subplots_adjust(right=0.78)
     return figure
 
 
