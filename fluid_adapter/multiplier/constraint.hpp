@@ -54,7 +54,7 @@ class Constraint {
     virtual void place(const std::vector<ImmersedGrain>& grains) = 0;
 
     /// (u, U) = W(u3, P) with the momenta of the grains (ImmersedGrain::momentum); u is kept by
-    /// reference. Throws std::runtime_error naming a grain that ties too little fluid.
+    /// reference. Throws PhysicsRefused naming a grain that ties too little fluid.
     virtual MultiplierResult solve(const VelocityPointers& u) = 0;
 
     /// Adds impulses to the grains. All ranks that hold a grain must pass the same values.

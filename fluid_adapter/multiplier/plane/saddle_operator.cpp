@@ -5,8 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <sstream>
-#include <stdexcept>
 #include <string>
+
+#include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 namespace {
@@ -20,9 +21,9 @@ void demand_positive(const Eigen::Matrix3d& effective, GrainId id) {
     std::ostringstream text;
     text << "grain " << id << " and the fluid tied to it have mass " << effective(0, 0)
          << " kg/m and moment of inertia " << effective(2, 2)
-         << " kg m, which is not positive definite: use a larger grains.density_ratio, more "
-            "fluid.cells_per_diameter, or check why the grain ties no fluid";
-    throw std::runtime_error(text.str());
+         << " kg m, which is not positive definite: use a larger grains.density_ratio, or more "
+            "fluid.cells_per_diameter";
+    throw PhysicsRefused(text.str());
 }
 
 /// Throws where A of a grain of the fluid's density and the fluid in its interior cells is
@@ -37,7 +38,7 @@ void demand_regular(const Eigen::Matrix3d& inertia, const Eigen::Matrix3d& effec
          << " has the fluid's density and too few cells inside its surface points, so that nothing "
             "gives it an inertia: use more fluid.cells_per_diameter, a larger fluid.point_spacing, "
             "or fluid.points: interior";
-    throw std::runtime_error(text.str());
+    throw PhysicsRefused(text.str());
 }
 
 }  // namespace

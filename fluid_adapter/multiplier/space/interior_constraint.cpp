@@ -3,7 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <sstream>
-#include <stdexcept>
+
+#include "coupler/protocol/failure.hpp"
 
 namespace turbidite {
 namespace {
@@ -116,9 +117,9 @@ Eigen::Matrix<double, 6, 6> body_inertia(const ImmersedGrain& grain,
     std::ostringstream text;
     text << "grain " << grain.id << " and the fluid tied to it have mass " << inertia(0, 0)
          << " kg and moment of inertia " << inertia(5, 5)
-         << " kg m2, which is not positive definite: use a larger grains.density_ratio, more "
-            "fluid.cells_per_diameter, or check why the grain ties no fluid";
-    throw std::runtime_error(text.str());
+         << " kg m2, which is not positive definite: use a larger grains.density_ratio, or more "
+            "fluid.cells_per_diameter";
+    throw PhysicsRefused(text.str());
 }
 
 }  // namespace
