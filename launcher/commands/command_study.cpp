@@ -11,7 +11,6 @@
 
 #include "launcher/case/forecast/disk_cost.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
-#include "launcher/case/grains/packing/pouring.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/commands/report_script.hpp"
 #include "launcher/job/folder/set_aside.hpp"
@@ -155,7 +154,7 @@ auto unless_it_waits(const PlannedRun& run, const Prepare& prepare)
 std::optional<PreparedRun> prepare_in_turn(const PlannedRun& run, const fs::path& out,
                                            const LaunchSite& site, const StudyTurns& turns,
                                            std::shared_ptr<RunLock>& chosen) {
-    if (!may_go_on(run, out) && is_poured(run.resolve().settings)) {
+    if (run.poured && !may_go_on(run, out)) {
         chosen.reset();
         with_poured_grains(run.resolve(), site);
         chosen = turns.lock();

@@ -10,6 +10,7 @@
 #include "launcher/case/files/case_entries.hpp"
 #include "launcher/case/forecast/disk_cost.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
+#include "launcher/case/grains/packing/pouring.hpp"
 
 namespace turbidite {
 namespace {
@@ -186,6 +187,7 @@ std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::st
         try {
             const ResolvedCase resolved = run.resolve();
             run.hash = resolved.settings.text("run.hash");
+            run.poured = is_poured(resolved.settings);
             run.yaml = resolved.yaml;
             for (const CaseEntry& entry : read_case_entries(run.case_file, run.overrides).entries)
                 run.given.push_back(entry.key);

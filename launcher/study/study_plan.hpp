@@ -20,6 +20,7 @@ struct PlannedRun {
     /// (swept key, value), "variant" among them; in the order of the axes.
     std::vector<std::pair<std::string, std::string>> values;
     std::string hash = {};                ///< of the resolved case
+    bool poured = false;                  ///< its grains are to be poured first
     std::string yaml = {};                ///< the resolved case
     std::vector<std::string> given = {};  ///< keys that study, case file or command line name
     double seconds = 0.0;                 ///< predicted (case/run_cost.hpp)

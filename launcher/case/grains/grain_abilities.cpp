@@ -129,14 +129,12 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
     return rules;
 }
 
-/// Volume, in the plane area, of what the fluid sees of a grain over that of the grain.
-double seen_volume(const Settings& settings, double radius) {
-    const double shift = in_space(settings) ? settings.real("fluid.surface_shift") /
-                                                  settings.real("fluid.cells_per_diameter")
-                                            : 0.0;
-    // (R_h/R)^d with R_h/R = h + s/(cells per R)
-    return std::pow(settings.real("fluid.hydrodynamic_radius") + shift / radius,
-                    in_space(settings) ? 3 : 2);
+/// R_h/R = h + s/(cells per R) of a grain of this radius [D]; s in space only.
+double seen_radius(const Settings& settings, double radius) {
+    const double seen = settings.real("fluid.hydrodynamic_radius");
+    if (!in_space(settings)) return seen;
+    const double cells = settings.real("fluid.cells_per_diameter") * radius;
+    return seen + settings.real("fluid.surface_shift") / cells;
 }
 
 /// Where pressure does not know the grains, a projection leaves a body the share 1/(1 + C_a) of its
@@ -147,11 +145,13 @@ double seen_volume(const Settings& settings, double radius) {
 std::vector<GrainRule> rules_of_splitting(const Settings& settings, std::size_t grains) {
     if (splitting_of(settings).rigid_grains) return {};
     const double least = grains > 1 ? 0.5 : 0.25;
+    const int dimension = in_space(settings) ? 3 : 2;
     const auto density = [ratio = settings.real("grains.density_ratio")](const PlacedGrain& g) {
         return g.density.value_or(ratio);
     };
     return {{[=](const PlacedGrain& g) {
-                 return !g.prescribed && density(g) < least * seen_volume(settings, g.radius);
+                 const double volume = std::pow(seen_radius(settings, g.radius), dimension);
+                 return !g.prescribed && density(g) < least * volume;
              },
              [density](const PlacedGrain& g) { return fmt::format("density = {}", density(g)); },
              fmt::format("With fluid.splitting: {} the velocity of a grain as light as this grows "
@@ -220,12 +220,9 @@ double least_density(const Settings& settings, double radius) {
     for (const char* key :
          {"fluid.surface_shift", "fluid.cells_per_diameter", "fluid.hydrodynamic_radius"})
         if (!settings.has(key)) return 1.0;  // of the plane, or refused
-    const double cells = settings.real("fluid.cells_per_diameter") * radius;  // of its radius
-    const double seen =
-        settings.real("fluid.hydrodynamic_radius") + settings.real("fluid.surface_shift") / cells;
-    // M > rho_f V(R_h) and, the stronger of both, I > 2/5 rho_f V(R_h) R_h^2 with R_h/R = h +
-    // s/(cells per R); at least 1, since buoyancy acts on V(R).
-    return std::max(1.0, std::pow(seen, 5));
+    // M > rho_f V(R_h) and, the stronger of both, I > 2/5 rho_f V(R_h) R_h^2; at least 1, since
+    // buoyancy acts on V(R).
+    return std::max(1.0, std::pow(seen_radius(settings, radius), 5));
 }
 
 CaseProblems check_abilities(const StartGrains& start, const Settings& settings,

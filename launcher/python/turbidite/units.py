@@ -5,9 +5,9 @@ from .readers import reader
 
 
 def of_grains(data, grains):
-    """{array: unit} of one output, grain_files.Grains. Forces and torques of the fluid over rho_f u_c^2 D and rho_f u_c^2 D^2 (in space D^2 and D^3), the
-    force of contacts over rho_s g D^2 (D^3) with the mean density rho_s of these grains: as the columns fluid_force_x and
-    mean_normal_force of history.csv are."""
+    """{array: unit} of one output, grain_files.Grains. Forces and torques of the fluid over rho_f u_c^2 D and
+    rho_f u_c^2 D^2 (in space D^2 and D^3), the force of contacts over rho_s g D^2 (D^3) with the mean density rho_s of
+    these grains: as the columns fluid_force_x and mean_normal_force of history.csv are."""
     diameter, speed = data.scale('D'), data.scale('u_c')
     fluid_force = data.scale('rho') * speed**2 * diameter**(2 if data.in_space() else 1)
     return {'position': diameter, 'radius': diameter, 'velocity': speed, 'angular_velocity': speed / diameter,

@@ -14,17 +14,7 @@ constexpr double c = 2.0, range = 0.05, dt = 0.01;
 const double mass = std::numbers::pi / 4;
 
 EngineSettings adhesive(const std::string& law) {
-    EngineSettings settings = scenes::exact(0.0, 1e-13);
-    settings.gravity = {};
-    Surface surface;
-    surface.friction = 0.0;
-    surface.adhesion = c;
-    settings.surfaces = {surface};
-    settings.law.adhesion = law;
-    settings.law_settings.adhesion_range = range;
-    settings.law_settings.adhesion_length = 0.02;
-    settings.law_settings.adhesion_shear = 0.5;
-    return settings;
+    return scenes::adhesive(law, c, range);
 }
 
 /// The fixed disc at the origin, the free one at a gap to its right.

@@ -32,17 +32,7 @@ Wall post(std::int32_t key, double x, double height) {
 }
 
 EngineSettings sticky(const std::string& law) {
-    EngineSettings settings = scenes::exact(0.0, 1e-13);
-    settings.gravity = {};
-    Surface surface;
-    surface.friction = 0.0;
-    surface.adhesion = c;
-    settings.surfaces = {surface};
-    settings.law.adhesion = law;
-    settings.law_settings.adhesion_range = range;
-    settings.law_settings.adhesion_length = 0.02;
-    settings.law_settings.adhesion_shear = 0.5;
-    return settings;
+    return scenes::adhesive(law, c, range);
 }
 
 /// The momentum that a disc of radius 0.5 at (x, y) gains in a step.

@@ -53,6 +53,21 @@ inline EngineSettings exact(double friction, double tolerance = 1e-10) {
     return settings;
 }
 
+/// Without friction and weight; cohesion reaches over a length of 0.02 and shears by half.
+inline EngineSettings adhesive(const std::string& law, double adhesion, double range) {
+    EngineSettings settings = exact(0.0, 1e-13);
+    settings.gravity = {};
+    Surface surface;
+    surface.friction = 0.0;
+    surface.adhesion = adhesion;
+    settings.surfaces = {surface};
+    settings.law.adhesion = law;
+    settings.law_settings.adhesion_range = range;
+    settings.law_settings.adhesion_length = 0.02;
+    settings.law_settings.adhesion_shear = 0.5;
+    return settings;
+}
+
 /// Discs that fall into a box: columns x rows, with random offsets, without overlap.
 inline Engine settling_pack(int columns, int rows, const EngineSettings& settings) {
     const double width = 1.1 * columns;
