@@ -180,7 +180,7 @@ double BoxOperators::flux_residual(double step, const double* p, const VelocityP
                                    const ExcessFlux& excess, const PendingChange& change,
                                    double* r) {
     begin_velocity(u, change);
-    begin_smoothing(excess.w, p);
+    begin_smoothing(excess, p);
     // Below layer 0; from then on the faces above a layer become those below the next.
     kept_below(0, excess, faces_.below.data());
     double sum = 0.0;
@@ -199,6 +199,7 @@ double BoxOperators::flux_residual(double step, const double* p, const VelocityP
 /// out -= div of what remains of e, of layer j; layers in ascending order.
 void BoxOperators::add_divergence_of_excess(int j, const ExcessFlux& excess, double* out) {
     const int nx = layers_.nx;
+    if (excess.wedges) excess.wedges->add_kept(j, -1.0, out);
     kept_below(j + 1, excess, faces_.above.data());
     if (layers_.in_space()) kept_behind(j, 0, excess, faces_.before.data());
     for (int k = 0; k < layers_.nz; ++k, out += nx) {
@@ -257,10 +258,10 @@ void BoxOperators::kept_behind(int j, int k, const ExcessFlux& excess, double* f
              excess.e[2] + layers_.face_row(2, j, k), face);
 }
 
-ImageProducts BoxOperators::flux_image(double step, const double* w, const double* d,
+ImageProducts BoxOperators::flux_image(double step, const ExcessFlux& excess, const double* d,
                                        const VelocityPointers& u, const double* r, double* image) {
     for (int axis = 0; axis < u.size(); ++axis) change_[axis].begin(u[axis]);
-    begin_smoothing(w, d);
+    begin_smoothing(excess, d);
     ImageProducts products;
     for (int j = 0; j < layers_.ny; ++j) {
         double* out = image ? image + layers_.row(j, 0) : image_.data();
@@ -273,8 +274,9 @@ ImageProducts BoxOperators::flux_image(double step, const double* w, const doubl
     return products;
 }
 
-void BoxOperators::begin_smoothing(const double* w, const double* p) {
-    w_.begin(w);
+void BoxOperators::begin_smoothing(const ExcessFlux& excess, const double* p) {
+    wedges_ = excess.wedges;
+    w_.begin(excess.w);
     p_.begin(p);
     // q of the layers -1 and 0; below_, here_ and above_ move up with the layers.
     second_difference_across(-1, below_);
@@ -318,6 +320,7 @@ void BoxOperators::add_smoothing(int j, double share, double* out) {
     const RowShares y = layers_.heights.over_volumes(j, 0.25 * share);
     if (layers_.in_space()) second_difference_between(j);
     second_difference_across(j + 1, above_);
+    if (wedges_) wedges_->add_driven(j, share, p_, out);
     for (int k = 0; k < layers_.nz; ++k, out += layers_.nx) {
         const std::size_t row = static_cast<std::size_t>(k) * layers_.nx;
         const double* q = second_difference_along(j, k);
@@ -332,13 +335,15 @@ void BoxOperators::add_smoothing(int j, double share, double* out) {
 }
 
 void BoxOperators::update_excess(double step, const double* p, const ExcessFlux& excess) {
-    begin_smoothing(excess.w, p);
+    begin_smoothing(excess, p);
     for (int j = 0; j <= layers_.ny; ++j) {
         double* faces = excess.e[1] + layers_.face_row(1, j, 0);
         kept_below(j, excess, faces);
         // e += step (q_j - q_{j-1})/(4d) on the faces below layer j, up to those above the last one
         correct(static_cast<int>(layers_.layer()), -0.25 * step / layers_.heights.distance(j),
                 below_.data(), here_.data(), faces, faces);
+        // All faces of the layer below have been written.
+        if (excess.wedges && j > 0) excess.wedges->update(j - 1, step, p_, excess.e);
         if (j == layers_.ny) break;
         update_excess_within(j, step, excess);
         second_difference_across(j + 1, above_);

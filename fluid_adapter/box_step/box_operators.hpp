@@ -15,6 +15,9 @@
 // minus the compact Laplacian. w = 0 in cells inside grains, where the fluid is rigid: faces
 // between two such cells carry S.u and no more, and Q stays symmetric.
 //
+// Faces of a film between cells of grains that touch (wedge_flow.hpp) carry its e, to which div e
+// and Q p belong in the same way.
+//
 // Where rows have heights h_j of their own, along y with D of S.v and G of row_heights.hpp and s
 // the slope of p between two rows: q = w h (s_{+1} - s), e = dt (q_{+1} - q)/(4d), and Q p is the
 // divergence of e. All products are weighted by volumes: in them G and D, Q and L are symmetric.
@@ -27,6 +30,7 @@
 
 #include "fluid_adapter/box_step/box_fluid.hpp"
 #include "fluid_adapter/box_step/row_differences.hpp"
+#include "fluid_adapter/box_step/wedge_flow.hpp"
 
 namespace turbidite {
 
@@ -54,6 +58,7 @@ struct ExcessFlux {
     VelocityPointers e;
     double k = 1.0;
     const double* w;  ///< over the rank's cells
+    const WedgeFlow* wedges = nullptr;
 };
 
 /// A change of velocity, u += share change, still to be made by the kernel that next reads u.
@@ -111,7 +116,7 @@ class BoxOperators {
 
     /// A d = D u + step Q d of a change of velocity; its products with d, r, itself, and that
     /// of r with d. `image`: where it is kept, unless null.
-    ImageProducts flux_image(double step, const double* w, const double* d,
+    ImageProducts flux_image(double step, const ExcessFlux& excess, const double* d,
                              const VelocityPointers& u, const double* r, double* image);
 
     /// e = what remains of it + step (q_{+1} - q)/(4h)
@@ -137,7 +142,7 @@ class BoxOperators {
     void kept_along(int j, int k, const ExcessFlux& excess, double* face);
     void kept_below(int j, const ExcessFlux& excess, double* faces);
     void kept_behind(int j, int k, const ExcessFlux& excess, double* face);
-    void begin_smoothing(const double* w, const double* p);
+    void begin_smoothing(const ExcessFlux& excess, const double* p);
     const double* second_difference_along(int j, int k);
     void second_difference_across(int j, Layer& q);
     void second_difference_between(int j);
@@ -152,6 +157,7 @@ class BoxOperators {
     Layer below_, here_, above_;  // q along y of three layers
     Layer image_, none_;
     Faces faces_;
+    const WedgeFlow* wedges_ = nullptr;  // of the pass at hand
 };
 
 }  // namespace turbidite

@@ -15,6 +15,8 @@ void RigidPressure::begin(const Constraint& constraint, double dt, double k) {
     // w of box_operators.hpp, 0 in covered cells: faces between two carry the rigid motion alone
     outside_.assign(step_.cells(), 1.0);
     constraint.clear_covered(outside_.data());
+    wedges_.begin(constraint.wedges(), step_.layers(), step_.excess_pointers(), step_.viscosity(),
+                  step_.cell_area(), dt);
 }
 
 IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
@@ -86,7 +88,7 @@ void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, boo
 /// A d, kept if there may be another iteration.
 ImageProducts RigidPressure::apply(BoxOperators& box, const RigidGrains& grains, bool keep) {
     if (keep) image_.resize(residual().size());
-    ImageProducts products = box.flux_image(dt_, outside_.data(), direction_, rigid().u.pointers(),
+    ImageProducts products = box.flux_image(dt_, excess(), direction_, rigid().u.pointers(),
                                             residual().data(), keep ? image_.data() : nullptr);
     grains.sum_over_ranks(products.data(), ImageProducts::count);
     return products;

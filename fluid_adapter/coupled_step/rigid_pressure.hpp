@@ -42,11 +42,12 @@ class RigidPressure {
     std::vector<double>& residual() { return work_.images[0]; }
     std::vector<double>& later() { return work_.images[1]; }
     RigidChange& rigid() { return work_.change; }  // W(-dt G d)
-    ExcessFlux excess() { return {step_.excess_pointers(), kept_, outside_.data()}; }
+    ExcessFlux excess() { return {step_.excess_pointers(), kept_, outside_.data(), &wedges_}; }
 
     BoxStep& step_;
     CorrectionWork& work_;
     double dt_ = 0.0, kept_ = 1.0;
+    WedgeFlow wedges_;
     std::vector<double> outside_, image_;
     const double* direction_ = nullptr;  // z itself if there is but one iteration, or later()
 };

@@ -21,6 +21,7 @@
 #include <functional>
 #include <vector>
 
+#include "fluid_adapter/multiplier/cell_side.hpp"
 #include "fluid_adapter/multiplier/components.hpp"
 #include "fluid_adapter/multiplier/immersed_grain.hpp"
 
@@ -80,6 +81,14 @@ class Constraint {
 
     /// Sets the values of this rank's cells that are part of grains to zero.
     virtual void clear_covered(double* values) const = 0;
+
+    /// Faces between cells of grains that touch on the mesh, or touch a wall, which are to carry a
+    /// film of liquid (box_step/wedge_flow.hpp), from both cells as far as they are this rank's. In
+    /// the plane none: there pores between grains that touch are closed.
+    virtual const std::vector<CellSide>& wedges() const {
+        static const std::vector<CellSide> none;
+        return none;
+    }
 
     // Changes of the velocity from outside, after `impose`:
 

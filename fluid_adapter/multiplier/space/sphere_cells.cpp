@@ -18,13 +18,13 @@ constexpr int x = 0, y = 1, z = 2;
 void SphereCells::find(const std::vector<ImmersedGrain>& grains) {
     grains_ = &grains;
     shut_in_ = 0;
-    // One layer more at either end: cells there are neighbours of own ones (join_if_shut_in).
-    covered_.assign(
-        grid().counts[x] * static_cast<std::size_t>(grid().counts[z]) * (cells_.count + 2), 0);
+    owners_.clear();
+    beside_runs_.clear();
     runs_.resize(grains.size());
     find_neighbours(grains);
     for (std::size_t g = 0; g < grains.size(); ++g) find_runs(static_cast<int>(g));
     join_shut_in();
+    find_wedges();
 }
 
 /// The layers within `reach` of a coordinate; of a sphere that reaches round a cyclic axis one
@@ -46,8 +46,8 @@ void SphereCells::find_runs(int g) {
     const Layers up = layers(y, at.y(), radius);
     for (int j = up.low; j <= up.high; ++j) {
         const int layer = grid().wrapped(y, j);
-        // Also of the layers beside this rank's, for the mask; add_run keeps only own cells.
-        if (layer < 0 || mask_cell(0, layer, 0) >= covered_.size()) continue;
+        // Also of the layers beside this rank's, for the owners; add_run keeps only own cells.
+        if (layer < 0 || !owners_.knows(layer)) continue;
         const double dy = up.cut ? arm(g, y, layer) : grid().centre(y, j) - at.y();
         // Half the width in z of the sphere's cut by this layer of centres
         const double across = std::sqrt(std::max(0.0, radius * radius - dy * dy));
@@ -121,7 +121,10 @@ void SphereCells::add_run(const Row& row, int low, int high) {
         const int i = grid().wrapped(x, low);
         // Up to the side of the grid
         const int count = std::min(high - low + 1, nx - i);
-        for (int c = 0; c < count; ++c) mark(i + c, row.j, row.k);
+        for (int c = 0; c < count; ++c) owners_.set({i + c, row.j, row.k}, row.grain);
+        if (const int after = grid().wrapped(x, i + count); after >= 0)
+            beside_runs_.push_back({row.grain, {after, row.j, row.k}});
+        if (i == 1 && !grid().cyclic(x)) beside_runs_.push_back({row.grain, {0, row.j, row.k}});
         if (cells_.owns(row.j))
             runs_[row.grain].push_back(
                 {cells_.cell(i, row.j, row.k),
@@ -132,73 +135,36 @@ void SphereCells::add_run(const Row& row, int low, int high) {
     }
 }
 
-/// Index in `covered_` of a cell of the grid; its size for a cell that is not looked at.
-std::size_t SphereCells::mask_cell(int i, int j, int k) const {
-    const int ny = grid().counts[y];
-    // 0 is the layer below the rank's, count + 1 that above, of a cyclic axis round the grid.
-    int layer = j - cells_.first + 1;
-    if (layer < 0) layer += ny;
-    if (layer > cells_.count + 1) layer -= ny;
-    if (layer < 0 || layer > cells_.count + 1) return covered_.size();
-    return i + grid().counts[x] * (k + static_cast<std::size_t>(grid().counts[z]) * layer);
-}
-
-void SphereCells::mark(int i, int j, int k) {
-    if (const std::size_t cell = mask_cell(i, j, k); cell < covered_.size()) covered_[cell] = 1;
-}
-
-/// A cell beyond a wall is; indices need not be wrapped.
-bool SphereCells::is_covered(int i, int j, int k) const {
-    const std::array<int, 3> place{i, j, k};
-    std::array<int, 3> at;
-    for (const int axis : {x, y, z}) {
-        at[axis] = grid().wrapped(axis, place[axis]);
-        if (at[axis] < 0) return grid().sides[axis][place[axis] < 0 ? 0 : 1] == Side::wall;
-    }
-    const std::size_t cell = mask_cell(at[x], at[y], at[z]);
-    return cell < covered_.size() && covered_[cell] != 0;
-}
-
 /// A cell that is shut in follows a run, or lies between a run and a wall.
 void SphereCells::join_shut_in() {
-    std::vector<Joined> joined;
-    for (std::size_t g = 0; g < runs_.size(); ++g)
-        for (const CellRun& run : runs_[g]) {
-            const Place at = place_of(run.cell);
-            // Found once, by the covered neighbour at -x: no two runs end at the same cell.
-            join_if_shut_in(static_cast<int>(g), {at.i + run.count, at.j, at.k}, joined);
-            if (at.i == 1 && !grid().cyclic(x))
-                join_if_shut_in(static_cast<int>(g), {0, at.j, at.k}, joined);
-        }
+    std::vector<CellOfGrain> joined;
+    // Found once, by the covered neighbour at -x: no two runs end at the same cell.
+    for (const CellOfGrain& of : beside_runs_)
+        if (is_shut_in(of.at)) joined.push_back({nearest(of.grain, of.at), of.at});
     // Only now: whether a cell is shut in does not depend on the order of the grains.
-    for (const Joined& of : joined) {
-        const Place& at = of.at;
-        runs_[of.grain].push_back(
-            {cells_.cell(at.i, at.j, at.k),
-             1,
-             {arm(of.grain, x, at.i), arm(of.grain, y, at.j), arm(of.grain, z, at.k)},
-             grid().relative_volume(at.i, at.j)});
+    for (const CellOfGrain& of : joined) {
+        const auto [i, j, k] = of.at;
+        owners_.set(of.at, CellOwners::shut_in);
+        if (!cells_.owns(j)) continue;
+        ++shut_in_;
+        runs_[of.grain].push_back({cells_.cell(i, j, k),
+                                   1,
+                                   {arm(of.grain, x, i), arm(of.grain, y, j), arm(of.grain, z, k)},
+                                   grid().relative_volume(i, j)});
     }
-    shut_in_ = static_cast<int>(joined.size());
 }
 
-SphereCells::Place SphereCells::place_of(int cell) const {
-    const int nx = grid().counts[x], nz = grid().counts[z];
-    return {cell % nx, cells_.first + cell / (nx * nz), cell / nx % nz};
-}
-
-void SphereCells::join_if_shut_in(int beside, Place at, std::vector<Joined>& joined) const {
-    at.i = grid().wrapped(x, at.i);
-    const auto [i, j, k] = at;
-    if (i < 0 || is_covered(i, j, k)) return;
-    const bool shut = is_covered(i + 1, j, k) && is_covered(i - 1, j, k) &&
-                      is_covered(i, j + 1, k) && is_covered(i, j - 1, k) &&
-                      is_covered(i, j, k + 1) && is_covered(i, j, k - 1);
-    if (shut) joined.push_back({nearest(beside, at), at});
+bool SphereCells::is_shut_in(const CellPlace& at) const {
+    // The outermost of the known layers have unknown neighbours.
+    if (!owners_.knows_beside(at.j) || owners_[at] != CellOwners::none) return false;
+    for (const int axis : {x, y, z})
+        for (const int side : {-1, 1})
+            if (!owners_.covered(at.beside(axis, side))) return false;
+    return true;
 }
 
 /// Of a grain and its neighbours.
-int SphereCells::nearest(int grain, const Place& at) const {
+int SphereCells::nearest(int grain, const CellPlace& at) const {
     const auto key = [&](int g) {
         return std::make_pair(power(g, at.i, at.j, at.k), (*grains_)[g].id);
     };
@@ -206,6 +172,17 @@ int SphereCells::nearest(int grain, const Place& at) const {
     for (const int other : neighbours_[grain])
         if (key(other) < key(best)) best = other;
     return best;
+}
+
+void SphereCells::find_wedges() {
+    wedges_.clear();
+    for (const std::vector<CellRun>& runs : runs_)
+        for (const CellRun& run : runs) wedges_.add_run(place_of(run.cell), run.count);
+}
+
+CellPlace SphereCells::place_of(int cell) const {
+    const int nx = grid().counts[x], nz = grid().counts[z];
+    return {cell % nx, cells_.first + cell / (nx * nz), cell / nx % nz};
 }
 
 }  // namespace turbidite

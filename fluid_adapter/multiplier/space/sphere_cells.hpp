@@ -7,12 +7,12 @@
 // would be tied to no other. Valid C++17.
 #pragma once
 
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "fluid_adapter/multiplier/immersed_grain.hpp"
-#include "fluid_adapter/multiplier/layer_cells.hpp"
+#include "fluid_adapter/multiplier/space/cell_owners.hpp"
+#include "fluid_adapter/multiplier/space/wedges.hpp"
 
 namespace turbidite {
 
@@ -27,9 +27,13 @@ struct CellRun {
 class SphereCells {
  public:
     /// Keeps a reference to the grid.
-    explicit SphereCells(const LayerCells& cells) : cells_(cells) {}
+    explicit SphereCells(const LayerCells& cells)
+        : cells_(cells), owners_(cells), wedges_(cells_, owners_) {}
+    SphereCells(const SphereCells&) = delete;  // wedges refer to the cells
+    SphereCells& operator=(const SphereCells&) = delete;
 
-    /// Finds the cells of this rank. Every rank passes all spheres within two cells of its layers.
+    /// Finds the cells of this rank. Every rank passes all spheres within three cells of its
+    /// layers.
     void find(const std::vector<ImmersedGrain>& grains);
 
     const std::vector<CellRun>& runs(std::size_t grain) const { return runs_[grain]; }
@@ -37,10 +41,9 @@ class SphereCells {
     /// Cells that joined a sphere since they were shut in.
     int shut_in() const { return shut_in_; }
 
+    const Wedges& wedges() const { return wedges_; }
+
  private:
-    struct Place {
-        int i, j, k;  // in the grid
-    };
     struct Row {
         int grain, j, k;
         double dy, dz;  // of its cells' centres from the grain's [m]
@@ -49,9 +52,9 @@ class SphereCells {
         int low, high;  // not wrapped
         bool cut;       // to one turn
     };
-    struct Joined {
+    struct CellOfGrain {
         int grain;
-        Place at;
+        CellPlace at;
     };
 
     void find_neighbours(const std::vector<ImmersedGrain>& grains);
@@ -62,20 +65,20 @@ class SphereCells {
     double power(int grain, int i, int j, int k) const;
     double arm(int grain, int axis, int wrapped) const;
     void add_run(const Row& row, int low, int high);
-    void mark(int i, int j, int k);
-    bool is_covered(int i, int j, int k) const;
-    std::size_t mask_cell(int i, int j, int k) const;
     void join_shut_in();
-    void join_if_shut_in(int beside, Place at, std::vector<Joined>& joined) const;
-    int nearest(int grain, const Place& at) const;
-    Place place_of(int cell) const;
+    bool is_shut_in(const CellPlace& at) const;
+    int nearest(int grain, const CellPlace& at) const;
+    void find_wedges();
+    CellPlace place_of(int cell) const;
     const CellGrid& grid() const { return *cells_.grid; }
 
     LayerCells cells_;
     const std::vector<ImmersedGrain>* grains_ = nullptr;
     std::vector<std::vector<int>> neighbours_;  // by grain: near ones
     std::vector<std::vector<CellRun>> runs_;    // by grain
-    std::vector<std::uint8_t> covered_;         // of this rank's layers and one more at either end
+    CellOwners owners_;
+    Wedges wedges_;
+    std::vector<CellOfGrain> beside_runs_;  // the cell before or after a run, in any known layer
     int shut_in_ = 0;
 };
 

@@ -138,7 +138,8 @@ TEST(Layers, HaveTheOperatorsOfPlanes) {
         const std::vector<double> w(each->cells(), 1.0);
         operators.gradient(dt, each->velocity(1), g.pointers());
         std::vector<double> image(each->cells());
-        operators.flux_image(dt, w.data(), each->velocity(0), g.pointers(), w.data(), image.data());
+        operators.flux_image(dt, {VelocityPointers(), 1.0, w.data()}, each->velocity(0),
+                             g.pointers(), w.data(), image.data());
         operators.update_excess(dt, each->velocity(0), {each->excess_pointers(), 0.5, w.data()});
         VelocityPointers u(each->layers().components());
         for (int axis = 0; axis < u.size(); ++axis) u[axis] = each->velocity(axis);

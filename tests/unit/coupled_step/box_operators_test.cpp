@@ -13,11 +13,31 @@ class Operators : public testing::TestWithParam<TankSides> {
     std::size_t size() const { return box.size(); }
 
     /// D (-dt G p) + dt Q p with this w, and its product with r.
-    std::vector<double> image_of(const std::vector<double>& p, const std::vector<double>& w) {
+    std::vector<double> image_of(const std::vector<double>& p, const std::vector<double>& w,
+                                 const WedgeFlow* wedges = nullptr) {
         std::vector<double> x(size()), y(size()), image(size()), r(size(), 0.0);
         box.gradient(time_step, p.data(), {x.data(), y.data()});
-        box.flux_image(time_step, w.data(), p.data(), {x.data(), y.data()}, r.data(), image.data());
+        box.flux_image(time_step, {VelocityPointers(), 1.0, w.data(), wedges}, p.data(),
+                       {x.data(), y.data()}, r.data(), image.data());
         return image;
+    }
+
+    /// About a third of the faces inside the box, from both of their cells.
+    std::vector<CellSide> some_faces() const {
+        std::vector<double> chosen(2 * size());
+        fill_randomly(chosen, 12);
+        std::vector<CellSide> sides;
+        for (int j = 0; j < cells_across; ++j)
+            for (int i = 0; i < cells_across; ++i) {
+                const int cell = j * cells_across + i;
+                for (const auto& [axis, last, next] :
+                     {std::array{0, i, 1}, std::array{1, j, cells_across}})
+                    if (last + 1 < cells_across && chosen[2 * cell + axis] > 0.3) {
+                        sides.push_back({cell, axis, 1});
+                        sides.push_back({cell + next, axis, -1});
+                    }
+            }
+        return sides;
     }
 
     /// Weighted by the volumes of the cells.
@@ -49,8 +69,8 @@ TEST_P(Operators, GradientAndDivergenceAreTransposed) {
     fill_randomly(p, 1), fill_randomly(x, 2), fill_randomly(y, 3);
     const std::vector<double> none(size(), 0.0);
     std::vector<double> divergence(size());
-    box.flux_image(0.0, none.data(), none.data(), {x.data(), y.data()}, none.data(),
-                   divergence.data());
+    box.flux_image(0.0, {VelocityPointers(), 1.0, none.data()}, none.data(), {x.data(), y.data()},
+                   none.data(), divergence.data());
     box.gradient(-1.0, p.data(), {gx.data(), gy.data()});
     const double by_gradient = product(gx, x) + product(gy, y);
     EXPECT_NEAR(product(p, divergence), -by_gradient, 1e-10 * std::abs(by_gradient));
@@ -71,8 +91,8 @@ TEST_P(Operators, ProductsAreThoseOfTheImages) {
     std::vector<double> p(size()), x(size()), y(size()), r(size()), image(size());
     const std::vector<double> w(size(), 1.0);
     fill_randomly(p, 1), fill_randomly(x, 2), fill_randomly(y, 3), fill_randomly(r, 4);
-    const ImageProducts of =
-        box.flux_image(time_step, w.data(), p.data(), {x.data(), y.data()}, r.data(), image.data());
+    const ImageProducts of = box.flux_image(time_step, {VelocityPointers(), 1.0, w.data()},
+                                            p.data(), {x.data(), y.data()}, r.data(), image.data());
     EXPECT_NEAR(of.direction, product(image, p), 1e-10 * std::abs(of.itself));
     EXPECT_NEAR(of.residual, product(image, r), 1e-10 * std::abs(of.itself));
     EXPECT_NEAR(of.itself, product(image, image), 1e-10 * std::abs(of.itself));
@@ -105,6 +125,62 @@ TEST_P(Operators, TheExcessIsTheFluxOfTheResidual) {
     const std::vector<double> after = flux_defect(step);
     EXPECT_GT(product(before, before), 1.0);
     for (std::size_t c = 0; c < size(); ++c) ASSERT_NEAR(after[c], before[c], 1e-10);
+}
+
+TEST_P(Operators, AreSymmetricWithWedges) {
+    WedgeFlow wedges;
+    wedges.begin(some_faces(), step.layers(), step.excess_pointers(), 0.01, step.cell_area(),
+                 time_step);
+    std::vector<double> a(size()), b(size());
+    const std::vector<double> w(size(), 0.0);
+    fill_randomly(a, 1), fill_randomly(b, 2);
+    const std::vector<double> image_a = image_of(a, w, &wedges), image_b = image_of(b, w, &wedges);
+    const double without = product(a, image_of(a, w));
+    EXPECT_NEAR(product(a, image_b), product(b, image_a), 1e-10 * std::abs(product(a, image_b)));
+    // dt k phi |grad p|^2 on a third of the faces
+    EXPECT_GT(product(a, image_a), 1.1 * without);
+}
+
+/// As TheExcessIsTheFluxOfTheResidual, with faces of a film between cells inside grains.
+TEST_P(Operators, TheFilmInWedgesIsTheFluxOfTheResidual) {
+    std::vector<double> p(size()), before(size());
+    const std::vector<double> w(size(), 0.0);
+    fill_randomly(p, 1);
+    fill_randomly(step.excess(0), 7), fill_randomly(step.excess(1), 8);
+    WedgeFlow wedges;
+    wedges.begin(some_faces(), step.layers(), step.excess_pointers(), 0.01, step.cell_area(),
+                 time_step);
+    const ExcessFlux excess{step.excess_pointers(), 0.5, w.data(), &wedges};
+    double *x = step.velocity(0), *y = step.velocity(1);
+    std::fill_n(x, size(), 0.0), std::fill_n(y, size(), 0.0);
+    box.flux_residual(time_step, p.data(), {x, y}, excess, {}, before.data());
+    box.update_excess(time_step, p.data(), excess);
+    const std::vector<double> after = flux_defect(step);
+    EXPECT_GT(product(before, before), 1.0);
+    for (std::size_t c = 0; c < size(); ++c) ASSERT_NEAR(after[c], before[c], 1e-10);
+}
+
+/// Under a constant slope of p it is the flow between two plates at half a cell from each other.
+TEST_P(Operators, TheFilmInWedgesApproachesTheFlowBetweenPlates) {
+    constexpr double slope = 0.7, viscosity = 0.5, delta = 0.5 * cell_size;
+    const int face = 20, cell = 20 * cells_across + face - 1;
+    const std::vector<CellSide> sides = {{cell, 0, 1}, {cell + 1, 0, -1}};
+    std::vector<double> p(size());
+    const std::vector<double> w(size(), 0.0);
+    for (std::size_t c = 0; c < size(); ++c) p[c] = slope * cell_size * (c % cells_across);
+    WedgeFlow wedges;
+    std::vector<double> fluxes;
+    for (int window = 0; window < 20; ++window) {
+        wedges.begin(sides, step.layers(), step.excess_pointers(), viscosity, step.cell_area(),
+                     0.001);
+        box.update_excess(0.001, p.data(), {step.excess_pointers(), 0.5, w.data(), &wedges});
+        fluxes.push_back(step.excess(0)[20 * (cells_across + 1) + face]);
+    }
+    // At first phi dt dp/dx; at last delta^3/(12 nu h) dp/dx
+    EXPECT_NEAR(fluxes.front(),
+                -0.5 * 0.001 * slope / (1.0 + 12.0 * viscosity * 0.001 / (delta * delta)), 1e-12);
+    EXPECT_NEAR(fluxes.back(), -delta * delta * delta / (12.0 * viscosity * cell_size) * slope,
+                1e-9);
 }
 
 TEST_P(Operators, NoExcessBetweenCellsInsideGrains) {

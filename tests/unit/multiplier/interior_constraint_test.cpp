@@ -185,18 +185,23 @@ TEST(SphereCells, OfASphereThatMeetsItselfAreThereOnce) {
     }
 }
 
-/// A cage of eight spheres on the corners of a cube, so close that single cells are left between.
+/// Eight spheres on the corners of a cube, so close that single cells are left between.
+std::vector<ImmersedGrain> cage() {
+    std::vector<ImmersedGrain> spheres;
+    for (int corner = 0; corner < 8; ++corner)
+        spheres.push_back(
+            sphere(corner,
+                   {1.55 + (corner % 2 - 0.5) * 1.0, 1.55 + (corner / 2 % 2 - 0.5) * 1.0,
+                    1.55 + (corner / 4 - 0.5) * 1.0},
+                   0.83));
+    return spheres;
+}
+
 TEST(SphereCells, ACellWithSixCoveredNeighboursJoinsTheNearestSphere) {
     const SpaceField field({30, 30, 30}, Side::wall);
-    std::vector<ImmersedGrain> cage;
-    for (int corner = 0; corner < 8; ++corner)
-        cage.push_back(sphere(corner,
-                              {1.55 + (corner % 2 - 0.5) * 1.0, 1.55 + (corner / 2 % 2 - 0.5) * 1.0,
-                               1.55 + (corner / 4 - 0.5) * 1.0},
-                              0.83));
     SphereCells cells(field.layers());
-    cells.find(cage);
-    const std::vector<int> inside = owners(field, cage);
+    cells.find(cage());
+    const std::vector<int> inside = owners(field, cage());
     ASSERT_GT(cells.shut_in(), 0);
     const std::vector<int> found = found_owners(field, cells, 8);
     const int centre = field.cell(15, 15, 15);
@@ -204,7 +209,82 @@ TEST(SphereCells, ACellWithSixCoveredNeighboursJoinsTheNearestSphere) {
     EXPECT_GE(found[centre], 0);
 }
 
-/// Two ranks of layers have together the cells of one.
+/// The definition of wedges, of a box between walls: by cell, with walls as owner -3 and without
+/// cells that are shut in.
+struct WedgesByDefinition {
+    const SpaceField& field;
+    std::vector<int> owner;
+
+    int at(const CellPlace& of) const {
+        const auto [nx, ny, nz] = field.grid().counts;
+        const bool inside =
+            of.i >= 0 && of.i < nx && of.j >= 0 && of.j < ny && of.k >= 0 && of.k < nz;
+        return inside ? owner[field.cell(of.i, of.j, of.k)] : -3;
+    }
+
+    bool has(const CellPlace& of) const {
+        if (at(of) < 0) return false;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int side : {-1, 1})
+                if (const int other = at(of.beside(axis, side)); other != at(of) && other != -1)
+                    return true;
+        return false;
+    }
+};
+
+using SideList = std::vector<std::array<int, 3>>;
+
+SideList sorted(const std::vector<CellSide>& sides, int cells_below = 0) {
+    SideList list;
+    for (const CellSide& of : sides) list.push_back({of.cell + cells_below, of.axis, of.side});
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+/// Two spheres that touch on the mesh, one of which reaches into the floor and one whose surface is
+/// three cells from both of them.
+TEST(Wedges, AreWhereSpheresTouchEachOtherOrAWall) {
+    const SpaceField field({30, 32, 31}, Side::wall);
+    const std::vector<ImmersedGrain> grains = {
+        sphere(1, {1.02, 0.46, 1.01}), sphere(2, {1.78, 1.06, 1.05}), sphere(3, {1.5, 2.4, 1.2})};
+    SphereCells cells(field.layers());
+    cells.find(grains);
+    ASSERT_EQ(cells.shut_in(), 0);
+    const WedgesByDefinition wedges{field, found_owners(field, cells, 3)};
+    SideList wanted;
+    int at_wall = 0, of_third = 0;
+    for (int j = 0; j < 32; ++j)
+        for (int k = 0; k < 31; ++k)
+            for (int i = 0; i < 30; ++i) {
+                const CellPlace at{i, j, k};
+                if (!wedges.has(at)) continue;
+                at_wall += j == 0, of_third += wedges.at(at) == 2;
+                for (int axis = 0; axis < 3; ++axis)
+                    for (const int side : {-1, 1})
+                        if (wedges.has(at.beside(axis, side)))
+                            wanted.push_back({field.cell(i, j, k), axis, side});
+            }
+    std::sort(wanted.begin(), wanted.end());
+    EXPECT_EQ(sorted(cells.wedges().sides()), wanted);
+    EXPECT_GT(at_wall, 10);
+    EXPECT_GT(static_cast<int>(wanted.size()), 6 * at_wall / 2) << "none between the spheres";
+    EXPECT_EQ(of_third, 0);
+}
+
+TEST(Wedges, HaveTheCellsThatAreShutIn) {
+    const SpaceField field({30, 30, 30}, Side::wall);
+    SphereCells cells(field.layers());
+    cells.find(cage());
+    ASSERT_GT(cells.shut_in(), 0);
+    const int centre = field.cell(15, 15, 15);
+    const SideList sides = sorted(cells.wedges().sides());
+    for (int axis = 0; axis < 3; ++axis)
+        for (const int side : {-1, 1})
+            EXPECT_TRUE(std::binary_search(sides.begin(), sides.end(),
+                                           std::array<int, 3>{centre, axis, side}));
+}
+
+/// Two ranks of layers have together the cells of one, and the wedges.
 TEST(SphereCells, RanksOfLayersHaveTheCellsOfOne) {
     const std::array<int, 3> box{30, 32, 31};
     const SpaceField whole(box, Side::cyclic), low(box, Side::cyclic, 0, 13),
@@ -216,6 +296,11 @@ TEST(SphereCells, RanksOfLayersHaveTheCellsOfOne) {
     const std::vector<int> upper = found_owners(high, above, 5);
     parts.insert(parts.end(), upper.begin(), upper.end());
     EXPECT_EQ(parts, found_owners(whole, all, 5));
+    SideList sides = sorted(below.wedges().sides());
+    const SideList more = sorted(above.wedges().sides(), low.owned_cells());
+    EXPECT_GT(std::min(sides.size(), more.size()), 20u);
+    sides.insert(sides.end(), more.begin(), more.end());
+    EXPECT_EQ(sides, sorted(all.wedges().sides()));
 }
 
 struct Scene {

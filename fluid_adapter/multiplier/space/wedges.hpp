@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The wedges between spheres that touch on the mesh, or touch a wall: cells beside a cell of
+// another sphere, beside a wall or beside a cell that is shut in, and these. The faces between two
+// of them carry a film of liquid (box_step/wedge_flow.hpp). Valid C++17.
+#pragma once
+
+#include <vector>
+
+#include "fluid_adapter/multiplier/cell_side.hpp"
+#include "fluid_adapter/multiplier/space/cell_owners.hpp"
+
+namespace turbidite {
+
+class Wedges {
+ public:
+    Wedges(const LayerCells& cells, const CellOwners& owners) : cells_(cells), owners_(owners) {}
+
+    void clear() { sides_.clear(); }
+
+    /// Adds those of `count` cells along x, which are spheres' or shut in.
+    void add_run(const CellPlace& first, int count);
+
+    /// Faces between two cells of wedges, from every one of them that is this rank's.
+    const std::vector<CellSide>& sides() const { return sides_; }
+
+ private:
+    bool has(const CellPlace& at) const;
+    void add(const CellPlace& at);
+
+    const LayerCells& cells_;
+    const CellOwners& owners_;
+    std::vector<CellSide> sides_;
+};
+
+}  // namespace turbidite
