@@ -257,7 +257,23 @@ std::string without_boundary_points(const Settings& s) {
     return unless(!is(s, "fluid.points", "interior"), s, "with fluid.points: interior");
 }
 
+/// In the plane pores between grains that touch are closed, and so is the wedge around a contact,
+/// which nothing can then open: told where grains that touch leave less than a cell between them.
+void tell_closed_contacts(const Settings& s, std::vector<std::string>& notes) {
+    if (!s.flag("fluid.enabled") || !splitting_of(s).rigid_grains || in_space(s)) return;
+    const double radius = s.real("fluid.hydrodynamic_radius"),
+                 cells = s.real("fluid.cells_per_diameter"), between = (1.0 - radius) * cells;
+    if (between >= 1.0) return;
+    notes.push_back(fmt::format(
+        "fluid.splitting = {}: grains that touch leave {:.2g} cells of fluid between them, and "
+        "where that is less "
+        "than one pressure holds them together and on walls, the more the shorter the step. With "
+        "fluid.hydrodynamic_radius up to {:.2g} they part; {} leaks there",
+        s.text("fluid.splitting"), between, 1.0 - 1.0 / cells, papers_splitting));
+}
+
 void fluid_notes(const Settings& s, std::vector<std::string>& notes) {
+    tell_closed_contacts(s, notes);
     const std::string& scheme = s.text("fluid.transport_scheme");
     if (const auto limit = step_limit_exceeded(s, SchemeKind::central, highest_peak))
         notes.push_back(

@@ -160,6 +160,24 @@ std::string notes_of(const ResolvedCase& resolved) {
     return all;
 }
 
+// Pressure that knows rigid discs holds those that touch on the mesh together.
+TEST_F(FluidLimits, GrainsThatPressureHoldsTogetherAreTold) {
+    const auto told = [this](std::vector<std::string> set) {
+        set.push_back("coupling.scheme=joint");
+        return notes_of(load("", set));
+    };
+    const std::string closed = "pressure holds them together";
+    EXPECT_SAYS(told({"fluid.splitting=explicit-multiplier", "fluid.hydrodynamic_radius=0.95",
+                      "fluid.cells_per_diameter=16"}),
+                "leave 0.8 cells of fluid between them");
+    EXPECT_SAYS(told({"fluid.splitting=implicit-multiplier"}), closed);
+    for (const std::vector<std::string>& open : std::vector<std::vector<std::string>>{
+             {"fluid.splitting=explicit-multiplier", "fluid.hydrodynamic_radius=0.93",
+              "fluid.cells_per_diameter=16"},
+             {"fluid.splitting=marchuk-yanenko"}})
+        EXPECT_EQ(told(open).find(closed), std::string::npos);
+}
+
 TEST(TransformLength, GoodOnesHaveSmallFactors) {
     EXPECT_EQ(largest_prime_factor(1), 1);
     EXPECT_EQ(largest_prime_factor(107), 107);
