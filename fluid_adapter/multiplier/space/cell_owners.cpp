@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/multiplier/space/cell_owners.hpp"
 
+#include <algorithm>
+
 namespace turbidite {
 
 void CellOwners::clear() {
     const std::size_t layer = grid().counts[0] * static_cast<std::size_t>(grid().counts[2]);
     owners_.assign(layer * (cells_.count + 2 * beyond), none);
+    no_owners_.assign(grid().counts[0], none);
+    walls_.assign(grid().counts[0], wall);
 }
 
 /// Place of layer j among those known, or -1.
@@ -31,19 +35,25 @@ bool CellOwners::knows_beside(int j) const {
     return knows(j) && known(j - 1) && known(j + 1);
 }
 
-void CellOwners::set(const CellPlace& at, int owner) {
-    if (knows(at.j)) owners_[number(at)] = owner;
+void CellOwners::set(const CellPlace& first, int count, int owner) {
+    if (knows(first.j)) std::fill_n(owners_.begin() + number(first), count, owner);
+}
+
+/// What stands for an owner there; 0 in the grid.
+int CellOwners::beyond_side(int axis, int at) const {
+    if (grid().wrapped(axis, at) >= 0) return 0;
+    return grid().sides[axis][at < 0 ? 0 : 1] == Side::wall ? wall : none;
+}
+
+const int* CellOwners::row(int j, int k) const {
+    for (const int beyond : {beyond_side(1, j), beyond_side(2, k)})
+        if (beyond != 0) return (beyond == wall ? walls_ : no_owners_).data();
+    return owners_.data() + number({0, grid().wrapped(1, j), grid().wrapped(2, k)});
 }
 
 int CellOwners::operator[](const CellPlace& at) const {
-    const std::array<int, 3> place{at.i, at.j, at.k};
-    std::array<int, 3> in;
-    for (int axis = 0; axis < 3; ++axis) {
-        in[axis] = grid().wrapped(axis, place[axis]);
-        if (in[axis] >= 0) continue;
-        return grid().sides[axis][place[axis] < 0 ? 0 : 1] == Side::wall ? wall : none;
-    }
-    return owners_[number({in[0], in[1], in[2]})];
+    if (const int beyond = beyond_side(0, at.i); beyond != 0) return beyond;
+    return row(at.j, at.k)[grid().wrapped(0, at.i)];
 }
 
 }  // namespace turbidite

@@ -3,7 +3,6 @@
 // Which sphere covers a cell of this rank's layers, or of the three beyond either end. Valid C++17.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "fluid_adapter/multiplier/layer_cells.hpp"
@@ -36,8 +35,12 @@ class CellOwners {
     /// And the layers beside it, or sides.
     bool knows_beside(int j) const;
 
-    /// `owner`: a sphere's index, or shut_in. Layers that are not known are left out.
-    void set(const CellPlace& at, int owner);
+    /// `count` cells along x; `owner`: a sphere's index, or shut_in. Layers that are not known are
+    /// left out.
+    void set(const CellPlace& first, int count, int owner);
+
+    /// Of the cells along x; j and k need not be wrapped.
+    const int* row(int j, int k) const;
 
     /// Of a cell in a layer that is known; indices need not be wrapped.
     int operator[](const CellPlace& at) const;
@@ -52,11 +55,13 @@ class CellOwners {
     static constexpr int beyond = 3;
 
     int layer(int j) const;
+    int beyond_side(int axis, int at) const;
     std::size_t number(const CellPlace& at) const;
     const CellGrid& grid() const { return *cells_.grid; }
 
     LayerCells cells_;
     std::vector<int> owners_;
+    std::vector<int> no_owners_, walls_;  // rows beyond sides
 };
 
 }  // namespace turbidite

@@ -121,7 +121,7 @@ void SphereCells::add_run(const Row& row, int low, int high) {
         const int i = grid().wrapped(x, low);
         // Up to the side of the grid
         const int count = std::min(high - low + 1, nx - i);
-        for (int c = 0; c < count; ++c) owners_.set({i + c, row.j, row.k}, row.grain);
+        owners_.set({i, row.j, row.k}, count, row.grain);
         if (const int after = grid().wrapped(x, i + count); after >= 0)
             beside_runs_.push_back({row.grain, {after, row.j, row.k}});
         if (i == 1 && !grid().cyclic(x)) beside_runs_.push_back({row.grain, {0, row.j, row.k}});
@@ -144,7 +144,7 @@ void SphereCells::join_shut_in() {
     // Only now: whether a cell is shut in does not depend on the order of the grains.
     for (const CellOfGrain& of : joined) {
         const auto [i, j, k] = of.at;
-        owners_.set(of.at, CellOwners::shut_in);
+        owners_.set(of.at, 1, CellOwners::shut_in);
         if (!cells_.owns(j)) continue;
         ++shut_in_;
         runs_[of.grain].push_back({cells_.cell(i, j, k),
@@ -178,6 +178,7 @@ void SphereCells::find_wedges() {
     wedges_.clear();
     for (const std::vector<CellRun>& runs : runs_)
         for (const CellRun& run : runs) wedges_.add_run(place_of(run.cell), run.count);
+    wedges_.find_sides();
 }
 
 CellPlace SphereCells::place_of(int cell) const {

@@ -2,10 +2,38 @@
 #include "fluid_adapter/multiplier/space/wedges.hpp"
 
 namespace turbidite {
+namespace {
+
+/// Whether a cell of the sphere `own` is in a wedge for what is beside it: another sphere, a wall,
+/// or a cell that is shut in.
+bool parts(int own, int beside) {
+    return beside != own && beside != CellOwners::none;
+}
+
+}  // namespace
+
+void Wedges::clear() {
+    in_it_.resize(cells_.cells());
+    for (const CellPlace& at : places_) in_it_[number(at)] = 0;
+    places_.clear();
+}
 
 void Wedges::add_run(const CellPlace& first, int count) {
-    for (int c = 0; c < count; ++c)
-        if (const CellPlace at = first.beside(0, c); has(at)) add(at);
+    const auto [i, j, k] = first;
+    const int* here = owners_.row(j, k);
+    const int* rows[] = {owners_.row(j - 1, k), owners_.row(j + 1, k), owners_.row(j, k - 1),
+                         owners_.row(j, k + 1)};
+    const int own = here[i];
+    for (int c = i; c < i + count; ++c) {
+        bool found = own == CellOwners::shut_in;
+        for (const int* row : rows) found |= parts(own, row[c]);
+        // Along x a run has others beside its ends alone.
+        if (c == i) found |= parts(own, owners_[{i - 1, j, k}]);
+        if (c == i + count - 1) found |= parts(own, owners_[{c + 1, j, k}]);
+        if (!found) continue;
+        places_.push_back({c, j, k});
+        in_it_[number(places_.back())] = 1;
+    }
 }
 
 bool Wedges::has(const CellPlace& at) const {
@@ -14,20 +42,24 @@ bool Wedges::has(const CellPlace& at) const {
     if (own == CellOwners::shut_in) return true;
     for (int axis = 0; axis < 3; ++axis)
         for (const int side : {-1, 1})
-            // Another sphere, a wall, or a cell that is shut in
-            if (const int other = owners_[at.beside(axis, side)];
-                other != own && other != CellOwners::none)
-                return true;
+            if (parts(own, owners_[at.beside(axis, side)])) return true;
     return false;
 }
 
-void Wedges::add(const CellPlace& at) {
-    for (int axis = 0; axis < 3; ++axis)
-        for (const int side : {-1, 1}) {
-            const CellPlace next = at.beside(axis, side);
-            if (owners_[next] != CellOwners::wall && has(next))
-                sides_.push_back({cells_.cell(at.i, at.j, at.k), axis, side});
-        }
+/// The same of a cell beside one of this rank's; indices need not be wrapped.
+bool Wedges::has_beside(const CellPlace& next) const {
+    const CellGrid& grid = *cells_.grid;
+    const CellPlace at{grid.wrapped(0, next.i), grid.wrapped(1, next.j), grid.wrapped(2, next.k)};
+    if (at.i < 0 || at.j < 0 || at.k < 0) return false;
+    return cells_.owns(at.j) ? in_it_[number(at)] != 0 : has(at);
+}
+
+void Wedges::find_sides() {
+    sides_.clear();
+    for (const CellPlace& at : places_)
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int side : {-1, 1})
+                if (has_beside(at.beside(axis, side))) sides_.push_back({number(at), axis, side});
 }
 
 }  // namespace turbidite
