@@ -199,7 +199,7 @@ double BoxOperators::flux_residual(double step, const double* p, const VelocityP
 /// out -= div of what remains of e, of layer j; layers in ascending order.
 void BoxOperators::add_divergence_of_excess(int j, const ExcessFlux& excess, double* out) {
     const int nx = layers_.nx;
-    if (excess.wedges) excess.wedges->add_kept(j, -1.0, out);
+    if (excess.film) excess.film->add_kept(j, -1.0, out);
     kept_below(j + 1, excess, faces_.above.data());
     if (layers_.in_space()) kept_behind(j, 0, excess, faces_.before.data());
     for (int k = 0; k < layers_.nz; ++k, out += nx) {
@@ -275,7 +275,7 @@ ImageProducts BoxOperators::flux_image(double step, const ExcessFlux& excess, co
 }
 
 void BoxOperators::begin_smoothing(const ExcessFlux& excess, const double* p) {
-    wedges_ = excess.wedges;
+    film_ = excess.film;
     w_.begin(excess.w);
     p_.begin(p);
     // q of the layers -1 and 0; below_, here_ and above_ move up with the layers.
@@ -320,7 +320,7 @@ void BoxOperators::add_smoothing(int j, double share, double* out) {
     const RowShares y = layers_.heights.over_volumes(j, 0.25 * share);
     if (layers_.in_space()) second_difference_between(j);
     second_difference_across(j + 1, above_);
-    if (wedges_) wedges_->add_driven(j, share, p_, out);
+    if (film_) film_->add_driven(j, share, p_, out);
     for (int k = 0; k < layers_.nz; ++k, out += layers_.nx) {
         const std::size_t row = static_cast<std::size_t>(k) * layers_.nx;
         const double* q = second_difference_along(j, k);
@@ -343,7 +343,7 @@ void BoxOperators::update_excess(double step, const double* p, const ExcessFlux&
         correct(static_cast<int>(layers_.layer()), -0.25 * step / layers_.heights.distance(j),
                 below_.data(), here_.data(), faces, faces);
         // All faces of the layer below have been written.
-        if (excess.wedges && j > 0) excess.wedges->update(j - 1, step, p_, excess.e);
+        if (excess.film && j > 0) excess.film->update(j - 1, step, p_, excess.e);
         if (j == layers_.ny) break;
         update_excess_within(j, step, excess);
         second_difference_across(j + 1, above_);

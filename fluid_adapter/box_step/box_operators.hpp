@@ -53,12 +53,13 @@ struct ViscousSums {
 };
 
 /// The excess flux of the last window, laid out as BoxStep::excess, of which the part k remains on
-/// faces with a cell of w = 1, and nothing on others and on the sides of the box.
+/// faces with a cell of w = 1, what wedge_flow.hpp says on those of a film, and nothing on others
+/// and on the sides of the box.
 struct ExcessFlux {
     VelocityPointers e;
     double k = 1.0;
-    const double* w;  ///< over the rank's cells
-    const WedgeFlow* wedges = nullptr;
+    const double* w;                  ///< over the rank's cells
+    const WedgeFlow* film = nullptr;  ///< none: no face has one
 };
 
 /// A change of velocity, u += share change, still to be made by the kernel that next reads u.
@@ -157,7 +158,7 @@ class BoxOperators {
     Layer below_, here_, above_;  // q along y of three layers
     Layer image_, none_;
     Faces faces_;
-    const WedgeFlow* wedges_ = nullptr;  // of the pass at hand
+    const WedgeFlow* film_ = nullptr;  // of the pass at hand
 };
 
 }  // namespace turbidite

@@ -2,15 +2,15 @@
 //
 // Liquid in the wedge around a contact, where the cells belong to grains. Two cells side by side,
 // one of each grain, have the divergence of their relative velocity, and pressure forbids it:
-// grains that touch on the mesh could neither part nor roll. So the faces between such cells carry
-// the flux of a film of thickness delta = h/2, with phi = delta/h the part of the face that it
-// fills,
+// grains that touch on the mesh could neither part nor roll, nor leave a wall. So faces between
+// cells of a wedge (multiplier/space/wedges.hpp), also those along it between two cells of one
+// grain, through which it fills and drains, carry the flux of a film of thickness delta = h/2. With
+// phi = delta/h, the part of the face that it fills,
 //
 //     de/dt  =  -phi dp/dn - 12 nu/delta^2 e        (flow between two plates)
-//     e      =  k (e_old - phi dt dp/dn),           k = 1/(1 + 48 nu dt/h^2)
+//     e      =  k (e_old - phi dt dp/dn),           k = 1/(1 + 12 nu dt/delta^2)
 //
-// through which the volume between them fills and drains. Where a gap widens, lubrication passes
-// into what the mesh resolves; where it closes, the force of the film is bounded. Valid C++17.
+// h is the size of the cells that are not stretched. Valid C++17.
 #pragma once
 
 #include <cstddef>

@@ -39,7 +39,7 @@ void CoupledStep::add_impulses(double sign, VelocityRows& u) {
     box_.add_impulses(sign, dt_, step_.pressure(), viscosity_.impulse(), u.pointers());
 }
 
-void CoupledStep::place_grains(const Constraint& constraint) {
+void CoupledStep::place_grains(Constraint& constraint) {
     // k = 1/(1 + 4 nu dt/h2): what the excess flux of the last window still counts for
     pressure_.begin(constraint, dt_, step_.kept_excess(dt_));
 }

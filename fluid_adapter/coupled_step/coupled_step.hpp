@@ -58,7 +58,7 @@ class CoupledStep {
     void keep_unconstrained(bool keep) { keep_ = keep; }
 
     /// Once per window, before the first correct.
-    void place_grains(const Constraint& constraint);
+    void place_grains(Constraint& constraint);
 
     CoupledReport correct(RigidGrains& grains, const CoupledLimits& limits);
 

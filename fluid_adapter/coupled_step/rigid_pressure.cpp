@@ -7,16 +7,17 @@
 
 namespace turbidite {
 
-void RigidPressure::begin(const Constraint& constraint, double dt, double k) {
+void RigidPressure::begin(Constraint& constraint, double dt, double k) {
     dt_ = dt;
     kept_ = k;
     work_.images.have(step_.layers().components());
     residual().resize(step_.cells());
-    // w of box_operators.hpp, 0 in covered cells: faces between two carry the rigid motion alone
+    // w of box_operators.hpp, 0 in covered cells: faces between two carry the rigid motion alone,
+    // and in wedges a film
     outside_.assign(step_.cells(), 1.0);
     constraint.clear_covered(outside_.data());
-    wedges_.begin(constraint.wedges(), step_.layers(), step_.excess_pointers(), step_.viscosity(),
-                  step_.cell_area(), dt);
+    film_.begin(constraint.film_sides(), step_.layers(), step_.excess_pointers(), step_.viscosity(),
+                step_.cell_area(), dt);
 }
 
 IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,

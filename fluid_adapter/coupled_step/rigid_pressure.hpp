@@ -23,8 +23,8 @@ class RigidPressure {
     }
 
     /// Takes the grains' places in a window of length dt [s]; k is the part of the excess that
-    /// remains of the last window's.
-    void begin(const Constraint& constraint, double dt, double k);
+    /// remains of the last window's outside grains.
+    void begin(Constraint& constraint, double dt, double k);
 
     /// Corrects the window's velocity and p until the rms of r is below the tolerance [1/s].
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);
@@ -42,12 +42,12 @@ class RigidPressure {
     std::vector<double>& residual() { return work_.images[0]; }
     std::vector<double>& later() { return work_.images[1]; }
     RigidChange& rigid() { return work_.change; }  // W(-dt G d)
-    ExcessFlux excess() { return {step_.excess_pointers(), kept_, outside_.data(), &wedges_}; }
+    ExcessFlux excess() { return {step_.excess_pointers(), kept_, outside_.data(), &film_}; }
 
     BoxStep& step_;
     CorrectionWork& work_;
     double dt_ = 0.0, kept_ = 1.0;
-    WedgeFlow wedges_;
+    WedgeFlow film_;
     std::vector<double> outside_, image_;
     const double* direction_ = nullptr;  // z itself if there is but one iteration, or later()
 };

@@ -85,7 +85,7 @@ class Constraint {
     /// Faces between cells of grains that touch on the mesh, or touch a wall, which are to carry a
     /// film of liquid (box_step/wedge_flow.hpp), from both cells as far as they are this rank's. In
     /// the plane none: there pores between grains that touch are closed.
-    virtual const std::vector<CellSide>& wedges() const {
+    virtual const std::vector<CellSide>& film_sides() {
         static const std::vector<CellSide> none;
         return none;
     }

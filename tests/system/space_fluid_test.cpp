@@ -307,19 +307,19 @@ class SpheresThatTouch : public SpaceFluid {
 };
 
 TEST_F(SpheresThatTouch, FallOffAFixedOneWithAnyStep) {
-    const std::string free = "1,1.43,1.5,1.57,free\n", below = "2,1.43,2.5,1.57,fixed\n",
-                      beside = "2,0.83,2.14,1.09,fixed\n";
+    // The first contact, at y = 2.5, is on the border between two ranks.
+    const std::string free = "1,1.43,2,1.57,free\n", above = "2,1.43,3,1.57,fixed\n",
+                      beside = "2,0.83,2.64,1.09,fixed\n";
     const double alone = speed(free, "", "alone");
     ASSERT_GT(alone, 0.1);
     int k = 0;
-    for (const std::string& fixed : {below, beside}) {
+    for (const std::string& fixed : {above, beside}) {
         const std::string name = "at" + std::to_string(++k);
         const double coarse = speed(free + fixed, "", name + "coarse");
         const double fine = speed(free + fixed, " --set time.step=0.005", name + "fine");
         EXPECT_NEAR(fine, coarse, 0.03 * coarse);
         EXPECT_GT(fine, 0.5 * alone);
         EXPECT_LT(fine, 0.95 * alone) << "the other one changes nothing";
-        // The contact, at y = 2, is on the border between two ranks in the first case.
         EXPECT_NEAR(speed(free + fixed, " --set fluid.ranks=2", name + "ranks"), coarse, 1e-7);
     }
 }

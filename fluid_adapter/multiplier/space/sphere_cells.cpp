@@ -24,7 +24,6 @@ void SphereCells::find(const std::vector<ImmersedGrain>& grains) {
     find_neighbours(grains);
     for (std::size_t g = 0; g < grains.size(); ++g) find_runs(static_cast<int>(g));
     join_shut_in();
-    find_wedges();
 }
 
 /// The layers within `reach` of a coordinate; of a sphere that reaches round a cyclic axis one
@@ -174,11 +173,12 @@ int SphereCells::nearest(int grain, const CellPlace& at) const {
     return best;
 }
 
-void SphereCells::find_wedges() {
+const Wedges& SphereCells::find_wedges() {
     wedges_.clear();
     for (const std::vector<CellRun>& runs : runs_)
         for (const CellRun& run : runs) wedges_.add_run(place_of(run.cell), run.count);
     wedges_.find_sides();
+    return wedges_;
 }
 
 CellPlace SphereCells::place_of(int cell) const {

@@ -3,8 +3,8 @@
 // Which cells move with which sphere. A cell belongs to the sphere of R_h that its centre lies in;
 // of several, to that with the smallest power |r|^2 - R_h^2, so that a plane divides two spheres
 // that overlap (the smaller id where it is equal). A cell of none whose six neighbours are covered,
-// or beyond a wall, joins the sphere of the smallest power: nothing flows in it, and its pressure
-// would be tied to no other. Valid C++17.
+// or beyond a wall, joins the sphere of the smallest power: its pressure would be tied to no other.
+// Valid C++17.
 #pragma once
 
 #include <utility>
@@ -41,7 +41,8 @@ class SphereCells {
     /// Cells that joined a sphere since they were shut in.
     int shut_in() const { return shut_in_; }
 
-    const Wedges& wedges() const { return wedges_; }
+    /// Of this rank's cells. Not found with them, since the paper's splitting has no use for them.
+    const Wedges& find_wedges();
 
  private:
     struct Row {
@@ -68,7 +69,6 @@ class SphereCells {
     void join_shut_in();
     bool is_shut_in(const CellPlace& at) const;
     int nearest(int grain, const CellPlace& at) const;
-    void find_wedges();
     CellPlace place_of(int cell) const;
     const CellGrid& grid() const { return *cells_.grid; }
 

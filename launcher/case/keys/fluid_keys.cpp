@@ -258,18 +258,22 @@ std::string without_boundary_points(const Settings& s) {
 }
 
 /// In the plane pores between grains that touch are closed, and so is the wedge around a contact,
-/// which nothing can then open: told where grains that touch leave less than a cell between them.
+/// which nothing can then open. With this many cells between grains that touch they part wherever
+/// they lie in the mesh (docs/splittings.md).
+constexpr double cells_to_part = 0.6;
+
 void tell_closed_contacts(const Settings& s, std::vector<std::string>& notes) {
     if (!s.flag("fluid.enabled") || !splitting_of(s).rigid_grains || in_space(s)) return;
-    const double radius = s.real("fluid.hydrodynamic_radius"),
-                 cells = s.real("fluid.cells_per_diameter"), between = (1.0 - radius) * cells;
-    if (between >= 1.0) return;
+    const double cells = s.real("fluid.cells_per_diameter"),
+                 between = (1.0 - s.real("fluid.hydrodynamic_radius")) * cells;
+    if (between >= cells_to_part - 1e-9) return;
     notes.push_back(fmt::format(
-        "fluid.splitting = {}: grains that touch leave {:.2g} cells of fluid between them, and "
-        "where that is less "
-        "than one pressure holds them together and on walls, the more the shorter the step. With "
-        "fluid.hydrodynamic_radius up to {:.2g} they part; {} leaks there",
-        s.text("fluid.splitting"), between, 1.0 - 1.0 / cells, papers_splitting));
+        "fluid.splitting = {}: grains that touch leave {:.2g} cells of fluid between them; below "
+        "{} "
+        "pressure may hold them together and on walls, the more the shorter the step. With "
+        "fluid.hydrodynamic_radius up to {:.2f} they part, with {} too",
+        s.text("fluid.splitting"), between, cells_to_part,
+        std::floor(100.0 * (1.0 - cells_to_part / cells)) / 100.0, papers_splitting));
 }
 
 void fluid_notes(const Settings& s, std::vector<std::string>& notes) {

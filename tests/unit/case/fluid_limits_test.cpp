@@ -161,21 +161,23 @@ std::string notes_of(const ResolvedCase& resolved) {
 }
 
 // Pressure that knows rigid discs holds those that touch on the mesh together.
-TEST_F(FluidLimits, GrainsThatPressureHoldsTogetherAreTold) {
-    const auto told = [this](std::vector<std::string> set) {
-        set.push_back("coupling.scheme=joint");
-        return notes_of(load("", set));
+TEST_F(FluidLimits, GrainsThatPressureHoldsTogetherAreToldWithARadiusThatHelps) {
+    const auto told = [this](const std::string& splitting, const std::string& radius, int cells) {
+        return notes_of(load("", {"coupling.scheme=joint", "fluid.splitting=" + splitting,
+                                  "fluid.hydrodynamic_radius=" + radius,
+                                  "fluid.cells_per_diameter=" + std::to_string(cells)}));
     };
-    const std::string closed = "pressure holds them together";
-    EXPECT_SAYS(told({"fluid.splitting=explicit-multiplier", "fluid.hydrodynamic_radius=0.95",
-                      "fluid.cells_per_diameter=16"}),
-                "leave 0.8 cells of fluid between them");
-    EXPECT_SAYS(told({"fluid.splitting=implicit-multiplier"}), closed);
-    for (const std::vector<std::string>& open : std::vector<std::vector<std::string>>{
-             {"fluid.splitting=explicit-multiplier", "fluid.hydrodynamic_radius=0.93",
-              "fluid.cells_per_diameter=16"},
-             {"fluid.splitting=marchuk-yanenko"}})
-        EXPECT_EQ(told(open).find(closed), std::string::npos);
+    const std::string held = "pressure may hold them together",
+                      advice = "hydrodynamic_radius up to ";
+    EXPECT_SAYS(told("implicit-multiplier", "0.97", 16), "leave 0.48 cells of fluid between them");
+    EXPECT_EQ(told("marchuk-yanenko", "1", 8).find(held), std::string::npos);
+    for (const int cells : {8, 10, 12, 16}) {
+        const std::string note = told("explicit-multiplier", "1", cells);
+        EXPECT_SAYS(note, held);
+        const std::string radius = note.substr(note.find(advice) + advice.size(), 4);
+        EXPECT_GT(std::stod(radius), 0.9);
+        EXPECT_EQ(told("explicit-multiplier", radius, cells).find(held), std::string::npos);
+    }
 }
 
 TEST(TransformLength, GoodOnesHaveSmallFactors) {

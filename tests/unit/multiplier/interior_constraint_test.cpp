@@ -265,7 +265,7 @@ TEST(Wedges, AreWhereSpheresTouchEachOtherOrAWall) {
                             wanted.push_back({field.cell(i, j, k), axis, side});
             }
     std::sort(wanted.begin(), wanted.end());
-    EXPECT_EQ(sorted(cells.wedges().sides()), wanted);
+    EXPECT_EQ(sorted(cells.find_wedges().sides()), wanted);
     EXPECT_GT(at_wall, 10);
     EXPECT_GT(static_cast<int>(wanted.size()), 6 * at_wall / 2) << "none between the spheres";
     EXPECT_EQ(of_third, 0);
@@ -277,7 +277,7 @@ TEST(Wedges, HaveTheCellsThatAreShutIn) {
     cells.find(cage());
     ASSERT_GT(cells.shut_in(), 0);
     const int centre = field.cell(15, 15, 15);
-    const SideList sides = sorted(cells.wedges().sides());
+    const SideList sides = sorted(cells.find_wedges().sides());
     for (int axis = 0; axis < 3; ++axis)
         for (const int side : {-1, 1})
             EXPECT_TRUE(std::binary_search(sides.begin(), sides.end(),
@@ -296,11 +296,11 @@ TEST(SphereCells, RanksOfLayersHaveTheCellsOfOne) {
     const std::vector<int> upper = found_owners(high, above, 5);
     parts.insert(parts.end(), upper.begin(), upper.end());
     EXPECT_EQ(parts, found_owners(whole, all, 5));
-    SideList sides = sorted(below.wedges().sides());
-    const SideList more = sorted(above.wedges().sides(), low.owned_cells());
+    SideList sides = sorted(below.find_wedges().sides());
+    const SideList more = sorted(above.find_wedges().sides(), low.owned_cells());
     EXPECT_GT(std::min(sides.size(), more.size()), 20u);
     sides.insert(sides.end(), more.begin(), more.end());
-    EXPECT_EQ(sides, sorted(all.wedges().sides()));
+    EXPECT_EQ(sides, sorted(all.find_wedges().sides()));
 }
 
 struct Scene {
