@@ -26,7 +26,8 @@ void WedgeFlow::begin(const std::vector<CellSide>& sides, const BoxLayers& layer
         const std::size_t place = layers.face_row(of.axis, j + (of.axis == 1 ? next : 0),
                                                   depth + (of.axis == 2 ? next : 0)) +
                                   i + (of.axis == 0 ? next : 0);
-        faces_[j].push_back({i, depth, of.axis, of.side, place, k * e[of.axis][place]});
+        faces_[j].push_back(
+            {i, depth, static_cast<int>(place), of.axis, of.side, k * e[of.axis][place]});
     }
 }
 

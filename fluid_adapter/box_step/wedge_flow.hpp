@@ -13,7 +13,7 @@
 // h is the size of the cells that are not stretched. Valid C++17.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "fluid_adapter/box_step/box_layers.hpp"
@@ -42,10 +42,10 @@ class WedgeFlow {
 
  private:
     struct Face {
-        int i, k;           // of the cell in its layer
-        int axis, side;     // -1: towards the origin
-        std::size_t place;  // in e of the axis
-        double kept;        // k e_old
+        int i, k;                // of the cell in its layer
+        int place;               // in e of the axis
+        std::int8_t axis, side;  // as in CellSide
+        double kept;             // k e_old
     };
 
     double width(int axis, int j) const;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
+
 namespace turbidite {
 
 /// A face of a cell of this rank, seen from the cell.
 struct CellSide {
     int cell;  ///< local index
-    int axis;
-    int side;  ///< -1: towards the origin, +1
+    std::int8_t axis;
+    std::int8_t side;  ///< -1: towards the origin, +1
 };
 
 }  // namespace turbidite

@@ -57,8 +57,8 @@ bool Wedges::has_beside(const CellPlace& next) const {
 void Wedges::find_sides() {
     sides_.clear();
     for (const CellPlace& at : places_)
-        for (int axis = 0; axis < 3; ++axis)
-            for (const int side : {-1, 1})
+        for (const std::int8_t axis : {0, 1, 2})
+            for (const std::int8_t side : {-1, 1})
                 if (has_beside(at.beside(axis, side))) sides_.push_back({number(at), axis, side});
 }
 

@@ -21,6 +21,8 @@ struct ProgramMemory {
 };
 constexpr ProgramMemory of_openfoam{750.0, 80.0, 190.0, 1e8};
 constexpr ProgramMemory of_box{95.0, 95.0, 75.0, 5e7};
+/// Faces in wedges between spheres, where a dense packing fills the box.
+constexpr double of_wedges = 25.0;
 
 }  // namespace
 
@@ -55,7 +57,8 @@ double fluid_memory(const Settings& settings, FluidProgram program) {
     const bool second_order = settings.text("fluid.time_scheme") == "second-order";
     const bool rigid_grains = splitting_of(settings).rigid_grains;
     const double per_cell = bytes.plain + (second_order ? bytes.second_order : 0.0) +
-                            (rigid_grains ? bytes.rigid_grains : 0.0);
+                            (rigid_grains ? bytes.rigid_grains : 0.0) +
+                            (rigid_grains && in_space(settings) ? of_wedges : 0.0);
     return (bytes.without_cells + per_cell * fluid_cells(settings)) / gigabyte;
 }
 

@@ -45,7 +45,9 @@ class FilmOnEveryFace : public testing::Test {
                 old[axis][cell(at)] = any(random);
                 for (const std::size_t face : faces(at, axis))
                     step.excess(axis)[face] = old[axis][cell(at)];
-                for (const int side : {-1, 1}) sides.push_back({cell(at), axis, side});
+                for (const int side : {-1, 1})
+                    sides.push_back(
+                        {cell(at), static_cast<std::int8_t>(axis), static_cast<std::int8_t>(side)});
             }
         film.begin(sides, step.layers(), step.excess_pointers(), nu, step.cell_area(), dt);
     }

@@ -33,8 +33,8 @@ class Operators : public testing::TestWithParam<TankSides> {
                 for (const auto& [axis, last, next] :
                      {std::array{0, i, 1}, std::array{1, j, cells_across}})
                     if (last + 1 < cells_across && chosen[2 * cell + axis] > 0.3) {
-                        sides.push_back({cell, axis, 1});
-                        sides.push_back({cell + next, axis, -1});
+                        sides.push_back({cell, static_cast<std::int8_t>(axis), 1});
+                        sides.push_back({cell + next, static_cast<std::int8_t>(axis), -1});
                     }
             }
         return sides;
