@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/case/case_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "coupler/keys/key_check.hpp"
@@ -51,6 +54,33 @@ void place_command(Settings& settings, const std::filesystem::path& folder) {
         settings.set("grains.command", command_text(with_absolute_files(*words, folder)));
 }
 
+bool begins_in_motion(const PlacedGrain& grain) {
+    if (grain.prescribed || !grain.motion.empty()) return false;
+    for (const double part : {grain.vx, grain.vy, grain.vz, grain.wx, grain.wy, grain.spin})
+        if (part != 0.0) return true;
+    return false;
+}
+
+/// The fluid begins at rest in the cells of grains too, and step 5 gives each cM U of what it had.
+std::vector<std::string> motions_lost_to_fluid(const Settings& settings, const Packing& grains) {
+    const auto moving = std::count_if(grains.begin(), grains.end(), begins_in_motion);
+    if (moving == 0 || !settings.flag("fluid.enabled")) return {};
+    // V(R_h)/V
+    const double radius = settings.real("fluid.hydrodynamic_radius");
+    double displaced = radius * radius;
+    if (in_space(settings))
+        displaced = std::pow(radius + 2.0 * settings.real("fluid.surface_shift") /
+                                          settings.real("fluid.cells_per_diameter"),
+                             3);
+    const double ratio = settings.real("grains.density_ratio");
+    return {
+        fmt::format("{} grain(s) begin with a velocity or spin, but the fluid begins at rest, in "
+                    "the cells that "
+                    "they cover too: the first window keeps about {:.2g} of it, 1 - V_h/V over "
+                    "grains.density_ratio, and less with added mass",
+                    moving, 1.0 - displaced / ratio)};
+}
+
 ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& entries) {
     const GrainForms& forms = *placed.forms;
     Packing& grains = placed.start.grains;
@@ -67,7 +97,7 @@ ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& en
                       {result.grains_csv, result.walls_csv, result.script, result.functions.text});
     for (const auto& notes :
          {placed.start.notes, forms.notes, unfollowed_motions(settings, placed.walls, grains),
-          rule_notes(settings, entries)})
+          motions_lost_to_fluid(settings, grains), rule_notes(settings, entries)})
         result.notes.insert(result.notes.end(), notes.begin(), notes.end());
     result.shapes = used_shapes(grains, forms);
     result.population = grain_states(grains, settings, result.scales);
