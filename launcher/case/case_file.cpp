@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "coupler/keys/key_check.hpp"
@@ -14,6 +13,7 @@
 #include "launcher/case/files/case_entries.hpp"
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/files/run_folder.hpp"
+#include "launcher/case/grains/grain_abilities.hpp"
 #include "launcher/case/grains/materials.hpp"
 #include "launcher/case/grains/packing/space_lattice.hpp"
 #include "launcher/case/keys/fluid_program.hpp"
@@ -65,20 +65,14 @@ bool begins_in_motion(const PlacedGrain& grain) {
 std::vector<std::string> motions_lost_to_fluid(const Settings& settings, const Packing& grains) {
     const auto moving = std::count_if(grains.begin(), grains.end(), begins_in_motion);
     if (moving == 0 || !settings.flag("fluid.enabled")) return {};
-    // V(R_h)/V
-    const double radius = settings.real("fluid.hydrodynamic_radius");
-    double displaced = radius * radius;
-    if (in_space(settings))
-        displaced = std::pow(radius + 2.0 * settings.real("fluid.surface_shift") /
-                                          settings.real("fluid.cells_per_diameter"),
-                             3);
-    const double ratio = settings.real("grains.density_ratio");
-    return {
-        fmt::format("{} grain(s) begin with a velocity or spin, but the fluid begins at rest, in "
-                    "the cells that "
-                    "they cover too: the first window keeps about {:.2g} of it, 1 - V_h/V over "
-                    "grains.density_ratio, and less with added mass",
-                    moving, 1.0 - displaced / ratio)};
+    // 1 - V(R_h)/(V rho_r), of a grain of diameter D
+    const double kept =
+        1.0 - displaced_volume(settings, 0.5) / settings.real("grains.density_ratio");
+    return {fmt::format(
+        "{} grain(s) begin with a velocity or spin, but the fluid begins at rest, in the cells "
+        "that they cover too: the first window keeps about {:.2g} of it, 1 - V_h/V over "
+        "grains.density_ratio, and less with added mass",
+        moving, kept)};
 }
 
 ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& entries) {

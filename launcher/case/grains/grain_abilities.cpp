@@ -145,13 +145,11 @@ double seen_radius(const Settings& settings, double radius) {
 std::vector<GrainRule> rules_of_splitting(const Settings& settings, std::size_t grains) {
     if (splitting_of(settings).rigid_grains) return {};
     const double least = grains > 1 ? 0.5 : 0.25;
-    const int dimension = in_space(settings) ? 3 : 2;
     const auto density = [ratio = settings.real("grains.density_ratio")](const PlacedGrain& g) {
         return g.density.value_or(ratio);
     };
     return {{[=](const PlacedGrain& g) {
-                 const double volume = std::pow(seen_radius(settings, g.radius), dimension);
-                 return !g.prescribed && density(g) < least * volume;
+                 return !g.prescribed && density(g) < least * displaced_volume(settings, g.radius);
              },
              [density](const PlacedGrain& g) { return fmt::format("density = {}", density(g)); },
              fmt::format("With fluid.splitting: {} the velocity of a grain as light as this grows "
@@ -215,6 +213,10 @@ Objection too_short(const ShortestPeriod& shortest, const LawRange& range) {
 }
 
 }  // namespace
+
+double displaced_volume(const Settings& settings, double radius) {
+    return std::pow(seen_radius(settings, radius), in_space(settings) ? 3 : 2);
+}
 
 double least_density(const Settings& settings, double radius) {
     for (const char* key :

@@ -24,4 +24,7 @@ CaseProblems check_periods(const Packing& grains, const Settings& settings,
 /// larger than it is (fluid.surface_shift).
 double least_density(const Settings& settings, double radius);
 
+/// V(R_h)/V of a grain of this radius [D]: what the fluid sees of it.
+double displaced_volume(const Settings& settings, double radius);
+
 }  // namespace turbidite
