@@ -26,6 +26,11 @@ Vec3 angular_momentum(const Eigen::Matrix3d& inertia, const Quaternion& q, const
     return turn({momentum[0], momentum[1], momentum[2]});
 }
 
+// I omega / R [kg m/s]
+Vec3 spin_momentum(const ImmersedBody& body, const GrainState& grain) {
+    return angular_momentum(body.inertia, grain.orientation, grain.angular_velocity) / grain.radius;
+}
+
 bool same_velocities(const Kick& kick, const GrainState& grain) {
     return kick.velocity == grain.velocity && kick.angular_velocity == grain.angular_velocity;
 }
@@ -34,15 +39,21 @@ bool same_impulses(const GrainState& a, const GrainState& b) {
            a.contact_angular_impulse == b.contact_angular_impulse;
 }
 
+// Of the momentum of a grain. Where nothing acts on one that moves, all terms are the rounding of
+// its velocity, some 1e-16 of it, and say nothing.
+constexpr double beyond_rounding = 1e-7;
+
 // The largest term of a balance, and its residual.
 struct Balance {
     double largest = 0.0;
     double rest = 0.0;
     GrainId worst = 0;
 
-    // Terms with their signs: they add up to zero where the equation of motion holds.
-    void add(GrainId grain, std::initializer_list<Vec3> terms) {
+    // Terms with their signs: they add up to zero where the equation of motion holds. `momentum`:
+    // what the grain had before.
+    void add(GrainId grain, const Vec3& momentum, std::initializer_list<Vec3> terms) {
         Vec3 sum{};
+        largest = std::max(largest, beyond_rounding * norm(momentum));
         for (const Vec3& term : terms) {
             sum = sum + term;
             largest = std::max(largest, norm(term));
@@ -124,13 +135,15 @@ GrainBalance KickRule::balance(const std::vector<Kick>& kicks, const Motion& bef
         // M dU - (M - m_f) g dt - J_c - F_h dt; the same for the spin, divided by R
         // Gravity acts along -y, so its term is +(M - m_f) g dt in y. m_f is of V(R): buoyancy acts
         // on the true volume, whatever R_h.
-        linear.add(kick.id, {immersed.mass * (kick.velocity - grain.velocity),
-                             Vec3{0.0, immersed.submerged_mass * gravity_ * step, 0.0},
-                             -with_contact.contact_impulse, -step * kick.force});
-        angular.add(kick.id, {angular_momentum(immersed.inertia, grain.orientation, spin_change) /
-                                  grain.radius,
-                              -with_contact.contact_angular_impulse / grain.radius,
-                              -step * kick.torque / grain.radius});
+        linear.add(kick.id, immersed.mass * grain.velocity,
+                   {immersed.mass * (kick.velocity - grain.velocity),
+                    Vec3{0.0, immersed.submerged_mass * gravity_ * step, 0.0},
+                    -with_contact.contact_impulse, -step * kick.force});
+        angular.add(
+            kick.id, spin_momentum(immersed, grain),
+            {angular_momentum(immersed.inertia, grain.orientation, spin_change) / grain.radius,
+             -with_contact.contact_angular_impulse / grain.radius,
+             -step * kick.torque / grain.radius});
     }
     return found(linear, angular, GrainBalance::Rule::wet);
 }
@@ -146,9 +159,10 @@ GrainBalance KickRule::balance(const Motion& before, const Motion& after, double
         const ImmersedBody& body = body_of(grain);
         const Vec3 spin_change = now.angular_velocity - grain.angular_velocity;
         // M dU - M g dt - J_c; the same for the spin, divided by R
-        linear.add(now.id, {body.mass * (now.velocity - grain.velocity),
-                            Vec3{0.0, body.mass * gravity_ * step, 0.0}, -now.contact_impulse});
-        angular.add(now.id,
+        linear.add(now.id, body.mass * grain.velocity,
+                   {body.mass * (now.velocity - grain.velocity),
+                    Vec3{0.0, body.mass * gravity_ * step, 0.0}, -now.contact_impulse});
+        angular.add(now.id, spin_momentum(body, grain),
                     {angular_momentum(body.inertia, grain.orientation, spin_change) / grain.radius,
                      -now.contact_angular_impulse / grain.radius});
     }

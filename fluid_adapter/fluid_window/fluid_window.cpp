@@ -162,6 +162,7 @@ template <class Take>
 void FluidWindow::answer(const char* name, Take take) {
     // Points first: what is loaded are the velocities in the cells that they need.
     watch_.play(name, timings_.points, take);
+    if (ledger_.began_at_rest()) watch_.play(name, timings_.points, [&] { begin_in_motion(); });
     watch_.play(name, timings_.multipliers, [&] {
         field_.load(multipliers_.constraint());
         note(multipliers_.solve());
@@ -169,6 +170,22 @@ void FluidWindow::answer(const char* name, Take take) {
     if (CoupledStep* coupled = step_.coupled()) coupled->place_grains(multipliers_.constraint());
     correct_fluid(before_contacts(coupled_limits_));
     grains_taken_ = true;
+}
+
+/// Grains that begin with a velocity begin with it in the cells that they cover too; otherwise the
+/// fluid there would take it from them. The fluid around them is at rest, and takes its share
+/// through the pressure (added mass).
+void FluidWindow::begin_in_motion() {
+    double moving = multipliers_.begins_in_motion() ? 1.0 : 0.0;
+    store_.ranks().max(&moving, 1);
+    if (moving == 0.0) return;
+    const Vec3 before = field_.momentum().sum;
+    field_.load(multipliers_.constraint());
+    note(multipliers_.carry_fluid_along());
+    field_.store(multipliers_.constraint());
+    ledger_.begin_with(field_.momentum().sum - before);
+    // s contains it.
+    if (CoupledStep* coupled = step_.coupled()) coupled->keep_transported();
 }
 
 /// Pressure and viscosity of the fluid with these grains, where the splitting corrects them.

@@ -65,6 +65,7 @@ class FluidWindow {
     void check_rows(const std::vector<GrainState>& grains) const;
     template <class Take>
     void answer(const char* name, Take take);
+    void begin_in_motion();
     void note(const MultiplierResult& result);
     void note(const CoupledReport& result);
     void correct_fluid(const CoupledLimits& limits);

@@ -15,7 +15,9 @@ constexpr double beyond_rounding = 1e-7;
 void MomentumLedger::open(double dt) {
     dt_ = dt;
     // P^n is what the last window has closed with, unless u was changed from outside.
-    before_ = current_ ? *current_ : field_.momentum().sum;
+    const FluidMomentum momentum = current_ ? *current_ : field_.momentum();
+    before_ = momentum.sum;
+    at_rest_ = momentum.magnitudes == 0.0;
     current_.reset();
     impulses_ = {};
     largest_ = 0.0;
@@ -32,12 +34,12 @@ void MomentumLedger::add(const std::vector<BoundaryForce>& forces) {
 }
 
 bool MomentumLedger::finite() const {
-    return current_ && is_finite(*current_);
+    return current_ && is_finite(current_->sum);
 }
 
 double MomentumLedger::close(const Vec3& to_grains) {
     const FluidMomentum now = field_.momentum();
-    current_ = now.sum;
+    current_ = now;
     const Vec3 change = now.sum - before_;
     // P^{n+1} - P^n + sum dt lambda - impulses
     const double defect = norm(change + to_grains - impulses_);

@@ -32,6 +32,12 @@ class MomentumLedger {
     /// Adds forces that each acted during an equal part of dt.
     void add(const std::vector<BoundaryForce>& forces);
 
+    /// Whether no cell of the fluid moved at the start of this window.
+    bool began_at_rest() const { return at_rest_; }
+
+    /// P^n becomes that of a fluid with this momentum more: it is to begin with it.
+    void begin_with(const Vec3& momentum) { before_ = before_ + momentum; }
+
     /// The velocity was changed from outside between windows.
     void forget() { current_.reset(); }
 
@@ -39,7 +45,7 @@ class MomentumLedger {
     bool finite() const;
 
     /// P^{n+1}, after `close`.
-    const Vec3& momentum() const { return *current_; }
+    const Vec3& momentum() const { return current_->sum; }
 
     /// After step 5, with the sum of the multiplier impulses of all grains: |defect| over the
     /// largest of the terms, or over what their rounding could be if that is larger; zero if all
@@ -50,8 +56,9 @@ class MomentumLedger {
     const StoredField& field_;
     double density_;
     double dt_ = 0.0;
-    std::optional<Vec3> current_;  // P as it is
+    std::optional<FluidMomentum> current_;  // P as it is
     Vec3 before_{};
+    bool at_rest_ = false;
     Vec3 impulses_{};
     double largest_ = 0.0;
 };

@@ -138,7 +138,7 @@ void ImmersedStep::take_constrained(const std::vector<GrainState>& states, const
         // ImmersedGrain::momentum.
         contact_impulses_[g] = contact_impulse(state);
         grains_[g].announced_impulse = {state.announced_impulse, state.announced_angular_impulse};
-        if (grains_[g].beyond.mass > 0.0)
+        if (!state.prescribed)
             grains_[g].motion_before = before_contacts(grains_[g], state, window.step);
     }
 }
@@ -155,6 +155,40 @@ Twist ImmersedStep::before_contacts(const ImmersedGrain& grain, const GrainState
     const Impulse gained = weight(state, step) + contact_impulse(state) + grain.announced_impulse;
     return {grain.contact_motion.velocity - gained.linear / grain.effective_mass,
             grain.contact_motion.spin - gained.moment / grain.effective_inertia};
+}
+
+bool ImmersedStep::begins_in_motion() const {
+    // Above what is left of a zero that `before_contacts` finds as a difference
+    const double rounding = 1e-9 * run_.velocity;
+    const auto moves = [&](const ImmersedGrain& grain) {
+        const Twist& motion = grain.motion_before;
+        return !grain.prescribed &&
+               norm(motion.velocity) + grain.radius * norm(motion.spin) > rounding;
+    };
+    return std::any_of(grains_.begin(), grains_.begin() + static_cast<std::ptrdiff_t>(states_),
+                       moves);
+}
+
+/// u += W(0) of bodies whose motion is given.
+MultiplierResult ImmersedStep::carry_fluid_along() {
+    std::vector<ImmersedGrain> starting = grains_;
+    for (ImmersedGrain& body : starting) {
+        body.contact_motion = body.prescribed ? Twist{} : body.motion_before;
+        body.prescribed = true;
+    }
+    const VelocityPointers u = field_.velocities();
+    std::vector<std::vector<double>> carried(u.size(),
+                                             std::vector<double>(field_.owned_cells(), 0.0));
+    VelocityPointers change(u.size());
+    for (int axis = 0; axis < u.size(); ++axis) change[axis] = carried[axis].data();
+    constraint_->place(starting);
+    const MultiplierResult result = constraint_->solve(change);
+    constraint_->impose();
+    for (int axis = 0; axis < u.size(); ++axis)
+        for (std::size_t cell = 0; cell < carried[axis].size(); ++cell)
+            u[axis][cell] += carried[axis][cell];
+    constraint_->place(grains_);
+    return result;
 }
 
 MultiplierResult ImmersedStep::solve() {

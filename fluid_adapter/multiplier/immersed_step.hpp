@@ -41,6 +41,14 @@ class ImmersedStep {
     /// The same for grains whose velocities already contain their contact impulses.
     void take_constrained(const std::vector<GrainState>& grains, const Window& window);
 
+    /// Whether a free grain of this rank moves at the start of the window, beyond rounding.
+    bool begins_in_motion() const;
+
+    /// A fluid at rest moves with the free grains that it is to begin with: adds to the field's
+    /// velocity that which satisfies the constraint with their U^n, and with all other bodies at
+    /// rest. The grains keep what they have. Before `solve`; by every rank of the fluid.
+    MultiplierResult carry_fluid_along();
+
     /// Solves for the multipliers of the grains taken.
     MultiplierResult solve();
 

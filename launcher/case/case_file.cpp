@@ -61,17 +61,20 @@ bool begins_in_motion(const PlacedGrain& grain) {
     return false;
 }
 
-/// The fluid begins at rest in the cells of grains too, and step 5 gives each cM U of what it had.
-std::vector<std::string> motions_lost_to_fluid(const Settings& settings, const Packing& grains) {
+/// The fluid around them begins at rest: its pressure shares their momentum out between them and
+/// an added mass of it.
+std::vector<std::string> motions_shared_with_fluid(const Settings& settings,
+                                                   const Packing& grains) {
     const auto moving = std::count_if(grains.begin(), grains.end(), begins_in_motion);
     if (moving == 0 || !settings.flag("fluid.enabled")) return {};
-    // 1 - V(R_h)/(V rho_r), of a grain of diameter D
-    const double kept =
-        1.0 - displaced_volume(settings, 0.5) / settings.real("grains.density_ratio");
+    // rho_r/(rho_r + C V(R_h)/V) of one of diameter D in an infinite fluid
+    const double coefficient = in_space(settings) ? 0.5 : 1.0;
+    const double ratio = settings.real("grains.density_ratio");
+    const double kept = ratio / (ratio + coefficient * displaced_volume(settings, 0.5));
     return {fmt::format(
-        "{} grain(s) begin with a velocity or spin, but the fluid begins at rest, in the cells "
-        "that they cover too: the first window keeps about {:.2g} of it, 1 - V_h/V over "
-        "grains.density_ratio, and less with added mass",
+        "{} grain(s) begin with a velocity or spin, in fluid that is at rest around them: in the "
+        "first windows added mass takes its share of the velocity; far from others about {:.2g} "
+        "of it stays",
         moving, kept)};
 }
 
@@ -91,7 +94,7 @@ ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& en
                       {result.grains_csv, result.walls_csv, result.script, result.functions.text});
     for (const auto& notes :
          {placed.start.notes, forms.notes, unfollowed_motions(settings, placed.walls, grains),
-          motions_lost_to_fluid(settings, grains), rule_notes(settings, entries)})
+          motions_shared_with_fluid(settings, grains), rule_notes(settings, entries)})
         result.notes.insert(result.notes.end(), notes.begin(), notes.end());
     result.shapes = used_shapes(grains, forms);
     result.population = grain_states(grains, settings, result.scales);

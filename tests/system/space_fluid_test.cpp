@@ -261,7 +261,7 @@ TEST_F(SpaceFluid, SidesMoveTheFluidOnAnyNumberOfRanks) {
 /// A sphere that falls on the floor slows down in the film, whose work is told, and a run in two
 /// parts has the bits of one.
 TEST_F(SpaceFluid, FilmsSlowWhatLands) {
-    scratch.write("one.csv", "id,x,y,z,vy\n1,2,0.65,2,-1\n");
+    scratch.write("one.csv", "id,x,y,z,vy\n1,2,0.65,2,-0.5\n");
     const std::string one =
         "run case.yaml --set grains.file=one.csv --set time.end=0.8 --set "
         "checkpoint.interval=0.4 --set output.interval=0.02 --out ";

@@ -367,7 +367,6 @@ TEST_F(SpaceCase, StandInsAreNotTakenForTooSmall) {
     EXPECT_SAYS(refusal("", with(tight, {"fluid.cells_per_diameter=5"})), "cells");
 }
 
-// The fluid begins at rest inside them too.
 TEST_F(SpaceCase, HowMuchOfAVelocityTheFluidLeavesIsTold) {
     const auto told = [this](const std::string& csv, const std::string& fluid) {
         folder.write("moving.csv", csv);
@@ -379,9 +378,9 @@ TEST_F(SpaceCase, HowMuchOfAVelocityTheFluidLeavesIsTold) {
         return notes;
     };
     const std::string moving = "id,x,y,z,vx,motion\n1,1,2,2,1,free\n2,3,2,2,1,driven\n";
-    // 1 - (1 + 0.6/8)^3/1.5
+    // 1.5/(1.5 + 0.5 (1 + 0.6/8)^3)
     EXPECT_SAYS(told(moving, "true"), "1 grain(s) begin with a velocity or spin");
-    EXPECT_SAYS(told(moving, "true"), "keeps about 0.17 of it");
+    EXPECT_SAYS(told(moving, "true"), "about 0.71 of it stays");
     EXPECT_EQ(told(moving, "false").find("begin with"), std::string::npos);
     EXPECT_EQ(told("id,x,y,z\n1,1,2,2\n", "true").find("begin with"), std::string::npos);
 }

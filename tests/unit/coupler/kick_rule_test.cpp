@@ -54,6 +54,25 @@ TEST(KickRule, BalanceClosesForAConsistentWindowAndOnlyThen) {
     EXPECT_GT(disc.rule.balance(disc.kicks, disc.before, disc.contact, step).defect, 0.1);
 }
 
+// A grain that moves with its fluid: what is left of the equation is rounding, and no defect; a
+// force of a millionth of its momentum is one.
+TEST(KickRule, OfAGrainOnWhichNothingActsRoundingIsNoDefect) {
+    OneDisc disc;
+    RunValues run = run_values(test_settings());
+    run.gravity = 0.0;
+    KickRule rule(run, {{"disc", {}}}, test_population());
+    disc.kicks[0].velocity = disc.before.grains[0].velocity;
+    disc.kicks[0].velocity[0] *= 1.0 + 2e-16;
+    disc.kicks[0].angular_velocity = disc.before.grains[0].angular_velocity = {0.0, 0.0, 2.0};
+    const auto defect = [&](const Vec3& multiplier) {
+        disc.kicks[0].multiplier_impulse = multiplier;
+        rule.complete(disc.kicks, disc.before, step);
+        return rule.balance(disc.kicks, disc.before, disc.contact, step).defect;
+    };
+    EXPECT_LT(defect({}), 1e-8);
+    EXPECT_GT(defect({0.0, 1e-6, 0.0}), 0.5);
+}
+
 // A sum that overflows is no number, and must not pass for the balance of the grains after it.
 TEST(KickRule, ABalanceThatOverflowsIsNotForgotten) {
     OneDisc disc;
