@@ -6,6 +6,7 @@
 #include <string>
 
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/rounding.hpp"
 #include "coupler/rigid/rotation.hpp"
 
 namespace turbidite {
@@ -39,10 +40,6 @@ bool same_impulses(const GrainState& a, const GrainState& b) {
            a.contact_angular_impulse == b.contact_angular_impulse;
 }
 
-// Of the momentum of a grain. Where nothing acts on one that moves, all terms are the rounding of
-// its velocity, some 1e-16 of it, and say nothing.
-constexpr double beyond_rounding = 1e-7;
-
 // The largest term of a balance, and its residual.
 struct Balance {
     double largest = 0.0;
@@ -53,6 +50,7 @@ struct Balance {
     // what the grain had before.
     void add(GrainId grain, const Vec3& momentum, std::initializer_list<Vec3> terms) {
         Vec3 sum{};
+        // Where nothing acts on a grain that moves, all terms are the rounding of its velocity.
         largest = std::max(largest, beyond_rounding * norm(momentum));
         for (const Vec3& term : terms) {
             sum = sum + term;

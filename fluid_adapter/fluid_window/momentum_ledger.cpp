@@ -3,14 +3,9 @@
 
 #include <algorithm>
 
+#include "coupler/protocol/rounding.hpp"
+
 namespace turbidite {
-namespace {
-
-/// Of the momenta of all cells, their signs apart. Where all impulses cancel, as in a shear flow,
-/// the terms are the rounding of that sum, some 1e-16 to 1e-14 of it, and say nothing.
-constexpr double beyond_rounding = 1e-7;
-
-}  // namespace
 
 void MomentumLedger::open(double dt) {
     dt_ = dt;
@@ -43,6 +38,7 @@ double MomentumLedger::close(const Vec3& to_grains) {
     const Vec3 change = now.sum - before_;
     // P^{n+1} - P^n + sum dt lambda - impulses
     const double defect = norm(change + to_grains - impulses_);
+    // The momenta of all cells without their signs: impulses may cancel, as in a shear flow.
     const double scale =
         std::max({largest_, norm(change), norm(to_grains), beyond_rounding * now.magnitudes});
     return scale > 0.0 ? defect / scale : 0.0;

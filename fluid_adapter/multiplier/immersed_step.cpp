@@ -138,7 +138,7 @@ void ImmersedStep::take_constrained(const std::vector<GrainState>& states, const
         // ImmersedGrain::momentum.
         contact_impulses_[g] = contact_impulse(state);
         grains_[g].announced_impulse = {state.announced_impulse, state.announced_angular_impulse};
-        if (!state.prescribed)
+        if (!state.prescribed && grains_[g].effective_mass > 0.0)
             grains_[g].motion_before = before_contacts(grains_[g], state, window.step);
     }
 }

@@ -73,8 +73,8 @@ std::vector<std::string> motions_shared_with_fluid(const Settings& settings,
     const double kept = ratio / (ratio + coefficient * displaced_volume(settings, 0.5));
     return {fmt::format(
         "{} grain(s) begin with a velocity or spin, in fluid that is at rest around them: in the "
-        "first windows added mass takes its share of the velocity; far from others about {:.2g} "
-        "of it stays",
+        "first windows added mass takes its share of a velocity; far from others about {:.2g} of "
+        "it stays, and an inflow, which begins at once, pushes them besides",
         moving, kept)};
 }
 

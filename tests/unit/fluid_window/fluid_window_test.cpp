@@ -103,6 +103,36 @@ TEST_P(EverySplitting, TheDiscSetsTheFluidAroundItInMotion) {
     EXPECT_NEAR(scene.store.field().velocity(1)[centre], of_disc, 1e-9);
 }
 
+/// A disc whose velocity comes with its weight of the window, as under `split`, begins as one whose
+/// velocity comes without, as under `joint`: at rest it carries no fluid along.
+TEST(FluidWindow, BeginsAlikeBeforeAndAfterContacts) {
+    constexpr double gravity = 2.0, submerged = 0.5,
+                     excess = 0.5;  // (rho_s - rho_f)/rho_f, R_h = R
+    Settings heavy = settings("marchuk-yanenko");
+    heavy.set("run.gravity", gravity);
+    for (const double fall : {0.0, -0.4}) {
+        WatchedStore before(cells, edge, 0.01, false), after(cells, edge, 0.01, false);
+        FluidWindow falls(before, heavy, {{"disc", {}}}), corrected(after, heavy, {{"disc", {}}});
+        GrainState disc = sinking_disc();
+        disc.velocity = {0.0, fall, 0.0};
+        falls.advance(window_at(0));
+        falls.let_fall({disc});
+        const Kick free = falls.impose().kicks.at(0);
+        // cM (U^{n+4/5} - U^n) = (M - m_f) g dt + J
+        constexpr double impulse = 0.003;
+        disc.contact_impulse = {impulse, 0.0, 0.0};
+        disc.velocity[1] -= submerged / excess * gravity * step;
+        disc.velocity[0] += impulse / (excess * 0.25 * M_PI);
+        corrected.advance(window_at(0));
+        corrected.correct({disc});
+        const Kick constrained = corrected.impose().kicks.at(0);
+        EXPECT_NEAR(constrained.velocity[1], free.velocity[1], 1e-7) << fall;
+        // J moves the disc with all of its mass, and the cells that its points reach.
+        const double whole = impulse / (1.5 * 0.25 * M_PI);
+        EXPECT_NEAR(constrained.velocity[0] / whole, 0.9, 0.1) << fall;
+    }
+}
+
 /// Div u = 0 in a closed box: what goes down in the disc comes up around it.
 TEST_P(EverySplitting, OnlyACorrectedPressureLetsTheFluidGoRound) {
     Scene scene(GetParam());
