@@ -98,6 +98,7 @@ std::vector<double> Slices::sampled(const Plane& plane, const StoredField& field
 /// The rank that has the cell which the plane cuts knows the grain.
 void Slices::cover(const Plane& plane, const StoredField& field, const ImmersedGrain& grain,
                    std::vector<double>& values) const {
+    if (grain.wall) return cover(plane, field, *grain.wall, values);
     const CellGrid& grid = field.grid();
     const auto [normal, across, up] = std::array{plane.normal, plane.across, plane.up};
     Eigen::Vector3d off = Eigen::Vector3d::Zero();
@@ -127,12 +128,32 @@ void Slices::cover(const Plane& plane, const StoredField& field, const ImmersedG
                 place[up] = (line + 0.5) / lines - 0.5;
                 sum += covered_length(grid, centre, grain.radius, across, at, place);
             }
-            double& covered =
-                values[per_cell * (inside[across] +
-                                   static_cast<std::size_t>(grid.counts[across]) * inside[up]) +
-                       4];
-            covered = std::min(1.0, covered + sum / lines);
+            add_covered(plane, grid, inside, sum / lines, values);
         }
+}
+
+void Slices::cover(const Plane& plane, const StoredField& field, const WallBody& wall,
+                   std::vector<double>& values) const {
+    const CellGrid& grid = field.grid();
+    const auto [first, last] = layers_reached_by(grid, wall);
+    CellIndex at{};
+    for (at[0] = first[0]; at[0] <= last[0]; ++at[0])
+        for (at[1] = first[1]; at[1] <= last[1]; ++at[1])
+            for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
+                CellIndex inside{};
+                for (int axis = 0; axis < 3; ++axis) inside[axis] = grid.wrapped(axis, at[axis]);
+                if (inside[plane.normal] != plane.layer) continue;
+                if (field.cell(inside[0], inside[1], inside[2]) < 0) continue;
+                add_covered(plane, grid, inside, covered_share(grid, wall, at), values);
+            }
+}
+
+void Slices::add_covered(const Plane& plane, const CellGrid& grid, const CellIndex& cell,
+                         double share, std::vector<double>& values) {
+    const std::size_t in_plane =
+        cell[plane.across] + static_cast<std::size_t>(grid.counts[plane.across]) * cell[plane.up];
+    double& covered = values[per_cell * in_plane + 4];
+    covered = std::min(1.0, covered + share);
 }
 
 SliceEdges Slices::edges(const Plane& plane, const CellGrid& grid) const {

@@ -5,7 +5,7 @@
 //     p        pressure over rho_f, linear between the cell centres on both sides [m2/s2]
 //     U        velocity, the same [m/s]
 //     covered  share of the cell's cut by the plane that spheres cover, with their hydrodynamic
-//              radii
+//              radii, or of the cell that walls inside the box do
 #pragma once
 
 #include <filesystem>
@@ -45,6 +45,11 @@ class Slices {
     std::vector<double> sampled(const Plane& plane, const StoredField& field) const;
     void cover(const Plane& plane, const StoredField& field, const ImmersedGrain& grain,
                std::vector<double>& values) const;
+    void cover(const Plane& plane, const StoredField& field, const WallBody& wall,
+               std::vector<double>& values) const;
+    static void add_covered(const Plane& plane, const CellGrid& grid,
+                            const std::array<int, 3>& cell, double share,
+                            std::vector<double>& values);
     SliceEdges edges(const Plane& plane, const CellGrid& grid) const;
 
     RunValues run_;

@@ -15,6 +15,12 @@
 
 namespace turbidite {
 
+/// Layers along an axis, which may lie beyond a cyclic side.
+struct LayerSpan {
+    int low, high;
+    bool cut;  ///< to one turn of a cyclic axis
+};
+
 /// Boundary type at one end of an axis.
 enum class Side { wall, open, cyclic };
 
@@ -79,6 +85,18 @@ struct CellGrid {
         const int i = layer(axis, coordinate);
         const bool inside = cyclic(axis) || (i >= 0 && i < counts[axis]);
         return inside && coordinate >= centre(axis, i) ? i : i - 1;
+    }
+
+    /// The layers within `reach` of a coordinate; of what reaches round a cyclic axis one turn,
+    /// those up to half a period away, else its first and last layers would be the same cells.
+    LayerSpan layers_within(int axis, double at, double reach) const {
+        LayerSpan span{layer(axis, at - reach), layer(axis, at + reach), false};
+        const int turn = counts[axis];
+        if (!cyclic(axis) || span.high - span.low < turn) return span;
+        span.low = layer_below(axis, at - 0.5 * length(axis)) + 1;
+        span.high = span.low + turn - 1;
+        span.cut = true;
+        return span;
     }
 
     /// Layer index wrapped into a cyclic grid; -1 outside a bounded one.

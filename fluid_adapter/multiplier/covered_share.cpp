@@ -55,16 +55,13 @@ double share_of_cell_in_space(const CellGrid& grid, const ImmersedGrain& grain,
 }
 
 double share_of(const CellGrid& grid, const ImmersedGrain& grain, const CellIndex& cell) {
+    if (grain.wall) return covered_share(grid, *grain.wall, cell);
     return grid.dimension == 3 ? share_of_cell_in_space(grid, grain, cell)
                                : share_of_cell(grid, grain, cell[0], cell[1]);
 }
 
-/// LayerRange between which a grain reaches; they may lie beyond a cyclic side.
-struct LayerRange {
-    CellIndex first{}, last{};
-};
-
 LayerRange layers_reached_by(const CellGrid& grid, const ImmersedGrain& grain) {
+    if (grain.wall) return layers_reached_by(grid, *grain.wall);
     LayerRange layers;
     for (int axis = 0; axis < grid.dimension; ++axis) {
         layers.first[axis] = grid.layer(axis, grain.position[axis] - grain.radius);
@@ -105,6 +102,24 @@ double covered_length(const CellGrid& grid, const Eigen::Vector3d& centre, doubl
     const double lower = std::max(off - 0.5 * size, -half),
                  upper = std::min(off + 0.5 * size, half);
     return std::max(0.0, upper - lower) / size;
+}
+
+LayerRange layers_reached_by(const CellGrid& grid, const WallBody& wall) {
+    const Extent all = extent_of(wall.surface, wall.half_thickness);
+    LayerRange layers;
+    for (int axis = 0; axis < 3; ++axis) {
+        const LayerSpan span = grid.layers_within(axis, 0.5 * (all.low[axis] + all.high[axis]),
+                                                  0.5 * (all.high[axis] - all.low[axis]));
+        layers.first[axis] = span.low;
+        layers.last[axis] = span.high;
+    }
+    return layers;
+}
+
+double covered_share(const CellGrid& grid, const WallBody& wall, const CellIndex& cell) {
+    const Vec3 centre{grid.centre(0, cell[0]), grid.centre(1, cell[1]), grid.centre(2, cell[2])};
+    const double inside = wall.half_thickness - distance(wall.surface, centre);
+    return std::clamp(0.5 + inside / grid.size(1, cell[1]), 0.0, 1.0);
 }
 
 std::vector<double> covered_share(const FluidField& field,

@@ -24,4 +24,14 @@ using CellIndex = std::array<int, 3>;  ///< i, j, k; may lie beyond a cyclic sid
 double covered_length(const CellGrid& grid, const Eigen::Vector3d& centre, double radius, int along,
                       const CellIndex& cell, const Vec3& place);
 
+/// Layers between which something reaches; they may lie beyond a cyclic side, where they are those
+/// of an image, and are no more than a period.
+struct LayerRange {
+    CellIndex first{}, last{};
+};
+LayerRange layers_reached_by(const CellGrid& grid, const WallBody& wall);
+
+/// Of a cell in space that a wall covers, as if its face were flat and normal to y there.
+double covered_share(const CellGrid& grid, const WallBody& wall, const CellIndex& cell);
+
 }  // namespace turbidite

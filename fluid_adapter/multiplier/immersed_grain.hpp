@@ -10,6 +10,7 @@
 #include "coupler/rigid/impulse.hpp"
 #include "coupler/rigid/rigid_motion.hpp"
 #include "coupler/shapes/shape.hpp"
+#include "coupler/shapes/wall_surface.hpp"
 #include "fluid_adapter/multiplier/fluid_beyond.hpp"
 
 namespace turbidite {
@@ -21,10 +22,21 @@ inline Eigen::Matrix3d matrix(const Rotation& turn) {
     return rows;
 }
 
+/// A wall inside the box in space: all that is within half its thickness of its surface.
+struct WallBody {
+    WallSurface surface;
+    double half_thickness = 0.0;  ///< as the fluid sees it [m]
+
+    friend bool operator==(const WallBody& a, const WallBody& b) {
+        return a.half_thickness == b.half_thickness && a.surface == b.surface;
+    }
+};
+
 struct ImmersedGrain {
     GrainId id = 0;
-    const Shape* shape = nullptr;
-    double radius = 0.0;                                        ///< hydrodynamic radius R_h [m]
+    const Shape* shape = nullptr;    ///< null of a wall in space
+    const WallBody* wall = nullptr;  ///< null of all other bodies; with `radius` 0
+    double radius = 0.0;             ///< hydrodynamic radius R_h [m]
     Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< q [m]
     Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< body to world
     double effective_mass = 0.0;      ///< cM [kg], per unit length in the plane

@@ -55,7 +55,7 @@ ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const Sh
     : field_(field),
       run_(run_values(settings)),
       bodies_(run_, shapes),
-      plates_(settings),
+      walls_(settings),
       moved_grains_(motions_of(settings, "run.grain_motions")),
       carries_contacts_(splitting_of(settings).rigid_grains),
       constraint_(make_constraint(field, settings, run_)) {
@@ -97,11 +97,10 @@ void ImmersedStep::take(const std::vector<GrainState>& states, const Window& win
         grains_.push_back(immersed(state));
         grains_.back().driving_impulse = driving(state, window.step);
     }
-    // Grains have the numbers below this; plates follow, which get no responses and no kicks.
+    // Grains have the numbers below this; walls follow, which get no responses and no kicks.
     states_ = grains_.size();
     prescribe(window);
-    for (const ImmersedGrain& plate : plates_.bodies(window.time, window.step))
-        grains_.push_back(plate);
+    walls_.append(window.time, window.step, grains_);
     contact_impulses_.assign(grains_.size(), {});
     pushed_ = false;
     constraint_->place(grains_);
@@ -302,7 +301,7 @@ std::vector<Kick> ImmersedStep::kicks() const {
 Impulse ImmersedStep::impulse_to_grains() const {
     Impulse sum;
     for (std::size_t g = 0; g < grains_.size(); ++g)
-        // With plates, which take momentum from the fluid as well; each body on one rank.
+        // With walls, which take momentum from the fluid as well; each body on one rank.
         if (answers_for(g)) sum += constraint_->impulse(g);
     return sum;
 }

@@ -6,7 +6,7 @@
 //     free         at t^n, moving with U^n + g' dt, where g' is their submerged weight over cM
 //     constrained  after a contact solve, with the velocities and impulses it found
 //
-// Behind them come the walls inside the box (immersed_plates.hpp), which only the fluid knows as
+// Behind them come the walls inside the box (immersed_walls.hpp), which only the fluid knows as
 // bodies. Grains that follow run.grain_motions have its velocities.
 //
 // Then follow solve, push as often as the coupler asks, and `impose`, which writes u and makes the
@@ -23,7 +23,7 @@
 #include "coupler/shapes/immersed_bodies.hpp"
 #include "fluid_adapter/multiplier/constraint.hpp"
 #include "fluid_adapter/multiplier/fluid_field.hpp"
-#include "fluid_adapter/multiplier/immersed_plates.hpp"
+#include "fluid_adapter/multiplier/immersed_walls.hpp"
 
 namespace turbidite {
 
@@ -69,7 +69,7 @@ class ImmersedStep {
     /// Sum of the multiplier impulses over these bodies, and of their moments; after impose.
     Impulse impulse_to_grains() const;
 
-    /// The grains and plates of the window, as the multipliers see them.
+    /// The grains and walls of the window, as the multipliers see them.
     const std::vector<ImmersedGrain>& grains() const { return grains_; }
 
     /// Between solve and impose, for changes of the velocity from outside.
@@ -91,11 +91,11 @@ class ImmersedStep {
     std::vector<std::shared_ptr<const Shape>> shapes_;
     RunValues run_;
     ImmersedBodies bodies_;
-    ImmersedPlates plates_;
+    ImmersedWalls walls_;
     std::vector<Moved> moved_grains_;
     bool carries_contacts_;  // from window to window
 
-    std::vector<ImmersedGrain> grains_;  // and plates
+    std::vector<ImmersedGrain> grains_;  // and walls
     std::size_t states_ = 0;             // of the grains alone
     std::unordered_map<GrainId, std::size_t> index_;
     std::vector<Impulse> contact_impulses_;  // J, contained in the present motions

@@ -2,8 +2,8 @@
 #include "granular_adapter/grains/inner_walls.hpp"
 
 #include "coupler/protocol/scene/plates.hpp"
-#include "coupler/protocol/scene/space_walls.hpp"
 #include "coupler/rigid/vec3.hpp"
+#include "coupler/shapes/wall_surface.hpp"
 
 namespace turbidite {
 namespace {
@@ -24,35 +24,24 @@ nscd::Wall wall_of(const Plate& plate) {
     return wall;
 }
 
-Vec3 unit(const Vec3& x) {
-    return (1.0 / norm(x)) * x;
-}
-
 /// Form and place of a wall in space.
-nscd::Wall surface_of(const SpaceWall& from) {
+nscd::Wall surface_as_wall(const WallSurface& from) {
     nscd::Wall wall;
-    if (from.kind == SpaceWallKind::plate) {
-        wall.form = nscd::WallForm::rectangle;
-        wall.point = from.place + 0.5 * (from.a + from.b);
-        wall.side = unit(from.a);
-        wall.normal = unit(cross(from.a, from.b));
-        wall.half_length = 0.5 * norm(from.a);
-        wall.half_width = 0.5 * norm(from.b);
+    wall.form = from.round ? nscd::WallForm::round : nscd::WallForm::rectangle;
+    wall.point = from.point;
+    wall.normal = from.normal;
+    if (from.round) {
+        wall.meridian = from.meridian;
         return wall;
     }
-    wall.form = nscd::WallForm::round;
-    wall.point = from.place;
-    wall.normal = unit(from.a);
-    const double height = from.kind == SpaceWallKind::ring ? 0.0 : norm(from.a);
-    const double end = from.kind == SpaceWallKind::cylinder ? from.radius : from.radius2;
-    // Two ends (radius, height): a cylinder has the same radius at both, a cone another one, and a
-    // ring two radii at the same height.
-    wall.meridian = {{{from.radius, 0.0}, {end, height}}};
+    wall.side = from.side;
+    wall.half_length = from.half_length;
+    wall.half_width = from.half_width;
     return wall;
 }
 
 nscd::Wall wall_of(const SpaceWall& from) {
-    nscd::Wall wall = surface_of(from);
+    nscd::Wall wall = surface_as_wall(surface_of(from));
     wall.twist = from.motion->rate(0.0, 1.0);  // of those that follow a motion: set later
     wall.pivot = from.pivot;
     wall.friction = from.friction;

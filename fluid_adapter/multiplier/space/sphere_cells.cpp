@@ -22,27 +22,40 @@ void SphereCells::find(const std::vector<ImmersedGrain>& grains) {
     beside_runs_.clear();
     runs_.resize(grains.size());
     find_neighbours(grains);
-    for (std::size_t g = 0; g < grains.size(); ++g) find_runs(static_cast<int>(g));
+    // Walls first: spheres get what they leave.
+    for (const bool walls : {true, false})
+        for (std::size_t g = 0; g < grains.size(); ++g) {
+            if ((grains[g].wall != nullptr) != walls) continue;
+            walls ? find_wall(static_cast<int>(g)) : find_runs(static_cast<int>(g));
+        }
     join_shut_in();
 }
 
-/// The layers within `reach` of a coordinate; of a sphere that reaches round a cyclic axis one
-/// turn, those up to half a period away, else its first and last layers would be the same cells.
-SphereCells::Layers SphereCells::layers(int axis, double at, double reach) const {
-    Layers found{grid().layer(axis, at - reach), grid().layer(axis, at + reach), false};
-    const int turn = grid().counts[axis];
-    if (!grid().cyclic(axis) || found.high - found.low < turn) return found;
-    found.low = grid().layer_below(axis, at - 0.5 * grid().length(axis)) + 1;
-    found.high = found.low + turn - 1;
-    found.cut = true;
-    return found;
+/// Walls that are at rest are one body with the sides of the box, and those of one motion are one:
+/// there are no wedges where they meet, through which fluid would leak.
+int SphereCells::owner_of_wall(int wall) const {
+    const ImmersedGrain& own = (*grains_)[wall];
+    if (own.contact_motion.at_rest()) return CellOwners::wall;
+    const auto moves_with_it = [&](const ImmersedGrain& body) {
+        const bool same_arm = own.contact_motion.spin == Vec3{} || body.position == own.position;
+        return body.wall != nullptr && body.contact_motion == own.contact_motion && same_arm;
+    };
+    const auto first = std::find_if(grains_->begin(), grains_->end(), moves_with_it);
+    return static_cast<int>(first - grains_->begin());
+}
+
+void SphereCells::find_wall(int wall) {
+    runs_[wall].clear();
+    const int owner = owner_of_wall(wall);
+    for (const WallRun& run : walls_.find((*grains_)[wall]))
+        add_cells(wall, owner, run.first, run.count, run.arm);
 }
 
 void SphereCells::find_runs(int g) {
     runs_[g].clear();
     const Eigen::Vector3d& at = (*grains_)[g].position;
     const double radius = (*grains_)[g].radius;
-    const Layers up = layers(y, at.y(), radius);
+    const LayerSpan up = grid().layers_within(y, at.y(), radius);
     for (int j = up.low; j <= up.high; ++j) {
         const int layer = grid().wrapped(y, j);
         // Also of the layers beside this rank's, for the owners; add_run keeps only own cells.
@@ -50,7 +63,7 @@ void SphereCells::find_runs(int g) {
         const double dy = up.cut ? arm(g, y, layer) : grid().centre(y, j) - at.y();
         // Half the width in z of the sphere's cut by this layer of centres
         const double across = std::sqrt(std::max(0.0, radius * radius - dy * dy));
-        const Layers deep = layers(z, at.z(), across);
+        const LayerSpan deep = grid().layers_within(z, at.z(), across);
         for (int k = deep.low; k <= deep.high; ++k)
             if (const int row = grid().wrapped(z, k); row >= 0)
                 find_row(
@@ -64,6 +77,7 @@ void SphereCells::find_neighbours(const std::vector<ImmersedGrain>& grains) {
     const auto& h = grid().spacing;
     const double margin = 2.0 * std::max({h[x], h[y], h[z]});
     for (const auto& [a, b] : near_pairs(grid(), grains, margin)) {
+        if (grains[a].wall || grains[b].wall) continue;
         neighbours_[a].push_back(b);
         neighbours_[b].push_back(a);
     }
@@ -104,7 +118,7 @@ void SphereCells::find_row(const Row& row) {
     // Half a chord, rounded outwards to whole cells; `belongs` decides at both ends. Between them
     // nothing needs to be asked: the sphere, cut by planes, is convex.
     const double half = std::sqrt(square), at = grain.position[x];
-    const Layers across = layers(x, at, half);
+    const LayerSpan across = grid().layers_within(x, at, half);
     int low = across.low, high = across.high;
     if (!grid().cyclic(x)) low = std::max(low, 0), high = std::min(high, grid().counts[x] - 1);
     const auto mine = [&](int i) { return belongs(row.grain, grid().wrapped(x, i), row.j, row.k); };
@@ -120,17 +134,30 @@ void SphereCells::add_run(const Row& row, int low, int high) {
         const int i = grid().wrapped(x, low);
         // Up to the side of the grid
         const int count = std::min(high - low + 1, nx - i);
-        owners_.set({i, row.j, row.k}, count, row.grain);
-        if (const int after = grid().wrapped(x, i + count); after >= 0)
-            beside_runs_.push_back({row.grain, {after, row.j, row.k}});
-        if (i == 1 && !grid().cyclic(x)) beside_runs_.push_back({row.grain, {0, row.j, row.k}});
-        if (cells_.owns(row.j))
-            runs_[row.grain].push_back(
-                {cells_.cell(i, row.j, row.k),
-                 count,
-                 {arm(row.grain, x, i), arm(row.grain, y, row.j), arm(row.grain, z, row.k)},
-                 grid().relative_volume(i, row.j)});
+        const Eigen::Vector3d first(arm(row.grain, x, i), arm(row.grain, y, row.j),
+                                    arm(row.grain, z, row.k));
+        add_cells(row.grain, row.grain, {i, row.j, row.k}, count, first);
         low += count;
+    }
+}
+
+/// Of cells along x within the grid those that no wall has; `arm`: r of the first.
+void SphereCells::add_cells(int body, int owner, const CellPlace& first, int count,
+                            const Eigen::Vector3d& arm) {
+    const int* owners = owners_.row(first.j, first.k) + first.i;
+    for (int from = 0, to = 0; from < count; from = to) {
+        const bool free = owners[from] == CellOwners::none;
+        while (to < count && (owners[to] == CellOwners::none) == free) ++to;
+        if (!free) continue;
+        const CellPlace at{first.i + from, first.j, first.k};
+        owners_.set(at, to - from, owner);
+        if (const int after = grid().wrapped(x, first.i + to); after >= 0)
+            beside_runs_.push_back({body, {after, at.j, at.k}});
+        if (at.i == 1 && !grid().cyclic(x)) beside_runs_.push_back({body, {0, at.j, at.k}});
+        if (cells_.owns(at.j))
+            runs_[body].push_back({cells_.cell(at.i, at.j, at.k), to - from,
+                                   arm + from * grid().spacing[x] * Eigen::Vector3d::UnitX(),
+                                   grid().relative_volume(at.i, at.j)});
     }
 }
 

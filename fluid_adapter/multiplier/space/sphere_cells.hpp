@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Which cells move with which sphere. A cell belongs to the sphere of R_h that its centre lies in;
-// of several, to that with the smallest power |r|^2 - R_h^2, so that a plane divides two spheres
-// that overlap (the smaller id where it is equal). A cell of none whose six neighbours are covered,
-// or beyond a wall, joins the sphere of the smallest power: its pressure would be tied to no other.
-// Valid C++17.
+// Which cells move with which sphere, or wall inside the box. A cell belongs to the sphere of R_h
+// that its centre lies in; of several, to that with the smallest power |r|^2 - R_h^2, so that a
+// plane divides two spheres that overlap (the smaller id where it is equal). Cells of walls
+// (wall_cells.hpp) are no sphere's. A cell of none whose six neighbours are covered, or beyond a
+// side, joins the sphere of the smallest power or the wall beside it along x: its pressure would be
+// tied to no other. Valid C++17.
 #pragma once
 
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "fluid_adapter/multiplier/immersed_grain.hpp"
 #include "fluid_adapter/multiplier/space/cell_owners.hpp"
+#include "fluid_adapter/multiplier/space/wall_cells.hpp"
 #include "fluid_adapter/multiplier/space/wedges.hpp"
 
 namespace turbidite {
@@ -28,12 +30,12 @@ class SphereCells {
  public:
     /// Keeps a reference to the grid.
     explicit SphereCells(const LayerCells& cells)
-        : cells_(cells), owners_(cells), wedges_(cells_, owners_) {}
-    SphereCells(const SphereCells&) = delete;  // wedges refer to the cells
+        : cells_(cells), owners_(cells), walls_(cells_, owners_), wedges_(cells_, owners_) {}
+    SphereCells(const SphereCells&) = delete;  // walls and wedges refer to the cells
     SphereCells& operator=(const SphereCells&) = delete;
 
     /// Finds the cells of this rank. Every rank passes all spheres within three cells of its
-    /// layers.
+    /// layers, and all walls.
     void find(const std::vector<ImmersedGrain>& grains);
 
     const std::vector<CellRun>& runs(std::size_t grain) const { return runs_[grain]; }
@@ -49,23 +51,22 @@ class SphereCells {
         int grain, j, k;
         double dy, dz;  // of its cells' centres from the grain's [m]
     };
-    struct Layers {
-        int low, high;  // not wrapped
-        bool cut;       // to one turn
-    };
     struct CellOfGrain {
         int grain;
         CellPlace at;
     };
 
     void find_neighbours(const std::vector<ImmersedGrain>& grains);
-    Layers layers(int axis, double at, double reach) const;
+    int owner_of_wall(int wall) const;
+    void find_wall(int wall);
     void find_runs(int grain);
     void find_row(const Row& row);
     bool belongs(int grain, int i, int j, int k) const;
     double power(int grain, int i, int j, int k) const;
     double arm(int grain, int axis, int wrapped) const;
     void add_run(const Row& row, int low, int high);
+    void add_cells(int body, int owner, const CellPlace& first, int count,
+                   const Eigen::Vector3d& arm);
     void join_shut_in();
     bool is_shut_in(const CellPlace& at) const;
     int nearest(int grain, const CellPlace& at) const;
@@ -77,6 +78,7 @@ class SphereCells {
     std::vector<std::vector<int>> neighbours_;  // by grain: near ones
     std::vector<std::vector<CellRun>> runs_;    // by grain
     CellOwners owners_;
+    WallCells walls_;
     Wedges wedges_;
     std::vector<CellOfGrain> beside_runs_;  // the cell before or after a run, in any known layer
     int shut_in_ = 0;

@@ -11,29 +11,15 @@
 namespace turbidite::nscd {
 namespace {
 
-/// Of a segment or a rectangle along one axis.
-double half_extent(const Wall& wall, std::size_t axis) {
-    // A segment is along e_z x n = (-n_y, n_x): L |n_y| along x, L |n_x| along y.
-    if (wall.form != WallForm::rectangle)  // a segment lies in the plane
-        return axis < 2 ? std::abs(wall.normal[1 - axis]) * wall.half_length : 0.0;
-    const Vec3 across = cross(wall.normal, wall.side);
-    return wall.half_length * std::abs(wall.side[axis]) + wall.half_width * std::abs(across[axis]);
-}
-
-Extent round_extent(const Wall& wall) {
-    Extent all;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        // A circle of radius R about the axis n reaches R sqrt(1 - n_i^2) from its centre along
-        // axis i. The surface is the convex combination of its two rims, so these give its extent.
-        const double n = wall.normal[axis], across = std::sqrt(std::max(0.0, 1.0 - n * n));
-        const auto& [p, q] = wall.meridian;
-        const double most = wall.half_thickness, x = wall.point[axis];
-        all.low[axis] =
-            x - most + std::min(p.height * n - p.radius * across, q.height * n - q.radius * across);
-        all.high[axis] =
-            x + most + std::max(p.height * n + p.radius * across, q.height * n + q.radius * across);
-    }
-    return all;
+/// Of a wall of space that is not a half-space.
+WallSurface surface_of(const Wall& wall) {
+    return {wall.form == WallForm::round,
+            wall.point,
+            wall.normal,
+            wall.meridian,
+            wall.side,
+            wall.half_length,
+            wall.half_width};
 }
 
 void check_rectangle(const Wall& wall, const std::string& name) {
@@ -61,10 +47,13 @@ bool has_ends(const Wall& wall) {
 }
 
 Extent extent_of(const Wall& wall) {
-    if (wall.form == WallForm::round) return round_extent(wall);
+    if (wall.form != WallForm::flat)
+        return turbidite::extent_of(surface_of(wall), wall.half_thickness);
     Extent all;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double half = half_extent(wall, axis) + wall.half_thickness;
+        // A segment is along e_z x n = (-n_y, n_x): L |n_y| along x, L |n_x| along y.
+        const double along = axis < 2 ? std::abs(wall.normal[1 - axis]) * wall.half_length : 0.0;
+        const double half = along + wall.half_thickness;
         all.low[axis] = wall.point[axis] - half;
         all.high[axis] = wall.point[axis] + half;
     }

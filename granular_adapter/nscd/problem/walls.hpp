@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "coupler/rigid/rigid_motion.hpp"
-#include "coupler/shapes/meridian.hpp"
+#include "coupler/shapes/wall_surface.hpp"
 
 namespace turbidite::nscd {
 
@@ -53,10 +53,7 @@ struct Wall {
 /// Whether it is anything but a half-space.
 bool has_ends(const Wall& wall);
 
-/// The smallest box around a wall with ends, parallel to the axes [m].
-struct Extent {
-    Vec3 low{}, high{};
-};
+/// Of a wall with ends.
 Extent extent_of(const Wall& wall);
 
 /// The longest of its dimensions, for tolerances; of a wall with ends [m].

@@ -33,13 +33,6 @@ Ruling ranks_have_layers(const Settings& s) {
     return Objection{"In space every rank has whole layers of cells of one y.", "Use rows."};
 }
 
-/// What a fluid in the plane can do, and one in space in this version cannot.
-Ruling only_in_the_plane(const Settings& s) {
-    if (!is_wet_space(s)) return std::nullopt;
-    return Objection{"With a fluid in space this does not work in this version.",
-                     "Remove it, or use dimension: 2."};
-}
-
 constexpr const char* profile_keys[] = {"domain.left_profile", "domain.right_profile",
                                         "domain.bottom_profile", "domain.top_profile"};
 
@@ -95,7 +88,6 @@ Ruling files_know_films(const Settings& s) {
 KeyGroup space_keys() {
     std::vector<Rule> rules = {
         {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
-        {"domain.walls_file", {"dimension", "fluid.enabled"}, only_in_the_plane},
         {"contact.solver", {"dimension"}, solver_works_in_space},
         {"contact.dump_interval", {"dimension", "contact.torsion_friction"}, files_know_torsion},
         {"contact.dump_interval", {"contact.film", "dimension", "fluid.enabled"}, files_know_films},

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "coupler/rigid/vec3.hpp"
-#include "coupler/shapes/meridian.hpp"
+#include "coupler/shapes/wall_surface.hpp"
 #include "launcher/case/files/csv_table.hpp"
 
 namespace turbidite {
@@ -224,30 +224,6 @@ bool has_second_radius(SpaceWallKind kind) {
     return kind == SpaceWallKind::cone || kind == SpaceWallKind::ring;
 }
 
-double distance_to_plate(const SpaceForm& form, const Vec3& place) {
-    const Vec3 arm = place - form.place;
-    Vec3 nearest{};
-    for (const Vec3& edge : {form.a, form.b}) {
-        // The edges are at a right angle, so each coordinate of the nearest place is found by
-        // itself.
-        const double share = std::clamp(dot(arm, edge) / dot(edge, edge), 0.0, 1.0);
-        nearest = nearest + share * edge;
-    }
-    return norm(arm - nearest);
-}
-
-double distance_to_round(const SpaceForm& form, const Vec3& place) {
-    const Vec3 axis = form.a / norm(form.a), arm = place - form.place;
-    const double height = dot(arm, axis);
-    // A ring's axis is a direction only: its meridian runs outward at height 0.
-    const double length = form.kind == SpaceWallKind::ring ? 0.0 : norm(form.a);
-    const double end = has_second_radius(form.kind) ? form.radius2 : form.radius;
-    // (rho, h) of the point against the meridian: from (r1, 0) to (r1 or r2, |a|), of a ring to
-    // (r2, 0).
-    return nearest_place({{{form.radius, 0.0}, {end, length}}}, {norm(arm - height * axis), height})
-        .distance;
-}
-
 Vec3 size_of_plate(const SpaceForm& form, double thickness) {
     const Vec3 across = cross(form.a, form.b);
     Vec3 size{};
@@ -316,10 +292,15 @@ std::string space_walls_csv(const std::vector<InnerWall>& walls) {
 
 double surface_gap(const InnerWall& wall, const Vec3& place, double radius) {
     const SpaceForm& form = *wall.space;
-    const double distance = form.kind == SpaceWallKind::plate ? distance_to_plate(form, place)
-                                                              : distance_to_round(form, place);
+    SpaceWall shape;
+    shape.kind = form.kind;
+    shape.place = form.place;
+    shape.a = form.a;
+    shape.b = form.b;
+    shape.radius = form.radius;
+    shape.radius2 = form.radius2;
     // Distances have no sign: walls hold grains on both sides.
-    return distance - radius - 0.5 * wall.thickness;
+    return distance(surface_of(shape), place) - radius - 0.5 * wall.thickness;
 }
 
 Vec3 middle_of(const SpaceForm& form) {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Walls inside the box as bodies of step 5 whose motion is given. There are two kinds:
+//
+//     plane   plates (coupler/protocol/scene/plates.hpp) with the outline that contacts see, their
+//             round ends as polygons. They have interior points only: a plate of two cells is
+//             tight, but boundary points on both sides of it would take its cells for their
+//             stencils and let fluid through.
+//     space   plates and round walls (coupler/protocol/scene/space_walls.hpp); the fluid sees their
+//             faces fluid.surface_shift farther out, as those of spheres
+//
+// Valid C++17.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "coupler/protocol/scene/plates.hpp"
+#include "coupler/protocol/scene/space_walls.hpp"
+#include "coupler/shapes/shape.hpp"
+#include "fluid_adapter/multiplier/immersed_grain.hpp"
+
+namespace turbidite {
+
+class ImmersedWalls {
+ public:
+    /// Reads run.dimension, run.walls and run.wall_motions.
+    explicit ImmersedWalls(const Settings& settings);
+
+    /// Appends the bodies for the window [time, time + step], with ids below zero. What they refer
+    /// to is kept here until the next call.
+    void append(double time, double step, std::vector<ImmersedGrain>& bodies);
+
+ private:
+    struct Strip {
+        Plate plate;
+        std::shared_ptr<const Shape> outline;
+        double radius;  // circumscribed [m]
+    };
+    struct InSpace {
+        SpaceWall wall;
+        WallBody body;
+    };
+    std::vector<Strip> strips_;
+    std::vector<InSpace> in_space_;
+};
+
+}  // namespace turbidite

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Walls inside the box in space: their cells keep fluid out, and spheres get what they leave.
+#include "fluid_adapter/multiplier/space/wall_cells.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <queue>
+
+#include "fluid_adapter/multiplier/space/interior_constraint.hpp"
+#include "tests/unit/multiplier/space_field.hpp"
+
+namespace turbidite {
+namespace {
+
+using std::numbers::pi;
+
+SpaceWall at_rest(SpaceWallKind kind, const Vec3& place, const Vec3& a) {
+    SpaceWall wall;
+    wall.kind = kind;
+    wall.place = wall.pivot = place;
+    wall.a = a;
+    wall.motion = constant_motion({});
+    return wall;
+}
+
+SpaceWall plate(const Vec3& corner, const Vec3& a, const Vec3& b) {
+    SpaceWall wall = at_rest(SpaceWallKind::plate, corner, a);
+    wall.b = b;
+    return wall;
+}
+
+SpaceWall cone(const Vec3& from, const Vec3& axis, double first, double last) {
+    SpaceWall wall = at_rest(SpaceWallKind::cone, from, axis);
+    wall.radius = first;
+    wall.radius2 = last;
+    return wall;
+}
+
+/// Bodies of walls two cells thick, and what they refer to.
+struct Walls {
+    explicit Walls(const std::vector<SpaceWall>& walls, double time = 0.0) : shapes(walls.size()) {
+        for (std::size_t w = 0; w < walls.size(); ++w) {
+            const PlacedWall placed = place(walls[w], time, 0.01);
+            shapes[w] = {placed.surface, edge};
+            ImmersedGrain body;
+            body.id = -7 - static_cast<GrainId>(w);
+            body.wall = &shapes[w];
+            body.prescribed = true;
+            body.contact_motion = placed.twist;
+            body.position = {placed.pivot[0], placed.pivot[1], placed.pivot[2]};
+            bodies.push_back(body);
+        }
+    }
+    Walls(const Walls&) = delete;  // bodies refer to shapes
+    Walls& operator=(const Walls&) = delete;
+
+    std::vector<WallBody> shapes;
+    std::vector<ImmersedGrain> bodies;
+};
+
+/// Body of each of the rank's cells, -1 none.
+std::vector<int> found_owners(const SpaceField& field, const SphereCells& cells,
+                              std::size_t bodies) {
+    std::vector<int> owner(field.owned_cells(), -1);
+    for (std::size_t g = 0; g < bodies; ++g)
+        for (const CellRun& run : cells.runs(g))
+            for (int c = 0; c < run.count; ++c) {
+                EXPECT_EQ(owner[run.cell + c], -1) << "two bodies have cell " << run.cell + c;
+                owner[run.cell + c] = static_cast<int>(g);
+            }
+    return owner;
+}
+
+/// How many cells can be reached through faces between free cells.
+std::size_t reached(const SpaceField& field, std::vector<int> owner, const CellPlace& from) {
+    const CellGrid& grid = field.grid();
+    std::queue<CellPlace> next;
+    std::size_t count = 0;
+    const auto visit = [&](const CellPlace& at) {
+        const CellPlace in{grid.wrapped(0, at.i), grid.wrapped(1, at.j), grid.wrapped(2, at.k)};
+        const int cell = field.cell(in.i, in.j, in.k);
+        if (cell < 0 || owner[cell] != -1) return;
+        owner[cell] = 0;
+        ++count;
+        next.push(in);
+    };
+    for (visit(from); !next.empty(); next.pop())
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int side : {-1, 1}) visit(next.front().beside(axis, side));
+    return count;
+}
+
+/// A plate across a box in any direction, and a closed can of a cylinder, a cone and two discs:
+/// what is on one side cannot be reached from the other.
+TEST(WallCells, OfTwoCellsLetNoFluidThrough) {
+    const SpaceField field({31, 30, 32}, Side::wall);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> turn(-1.0, 1.0);
+    for (int trial = 0; trial < 20; ++trial) {
+        const Rotation way = rotation(pi * Vec3{turn(random), turn(random), turn(random)});
+        const Vec3 middle{1.55 + 0.1 * turn(random), 1.5 + 0.1 * turn(random), 1.6};
+        const Vec3 a = way({8.0, 0.0, 0.0}), b = way({0.0, 8.0, 0.0});
+        const Walls one({plate(middle - 0.5 * (a + b), a, b)});
+        SphereCells cells(field.layers());
+        cells.find(one.bodies);
+        const std::vector<int> owner = found_owners(field, cells, 1);
+        const auto free = static_cast<std::size_t>(std::count(owner.begin(), owner.end(), -1));
+        const std::size_t first =
+            static_cast<std::size_t>(std::find(owner.begin(), owner.end(), -1) - owner.begin());
+        const int at = static_cast<int>(first);
+        const std::size_t side = reached(field, owner, {at % 31, at / (31 * 32), at / 31 % 32});
+        EXPECT_LT(side, free) << trial;
+        EXPECT_GT(side, free / 5) << trial;
+
+        const Vec3 up = way({0.0, 1.0, 0.0}), foot = middle - 1.0 * up;
+        SpaceWall shell = at_rest(SpaceWallKind::cylinder, foot, 1.2 * up);
+        shell.radius = 0.9;
+        SpaceWall floor = at_rest(SpaceWallKind::ring, foot, up);
+        floor.radius2 = 0.9;
+        SpaceWall lid = at_rest(SpaceWallKind::ring, foot + 1.8 * up, up);
+        lid.radius2 = 0.4;
+        const Walls can({shell, floor, lid, cone(foot + 1.2 * up, 0.6 * up, 0.9, 0.4)});
+        cells.find(can.bodies);
+        const std::vector<int> owner_in_can = found_owners(field, cells, 4);
+        const CellGrid& grid = field.grid();
+        const std::size_t inside =
+            reached(field, owner_in_can,
+                    {grid.layer(0, middle[0]), grid.layer(1, middle[1]), grid.layer(2, middle[2])});
+        // pi r^2 h of the faces inside, 0.8 D and 1.0 D, and of the cone's part
+        EXPECT_GT(inside, 2000u) << trial;
+        EXPECT_LT(inside, 3500u) << trial;
+        EXPECT_TRUE(cells.find_wedges().sides().empty()) << "fluid leaks where walls at rest meet";
+    }
+}
+
+/// Two layers of centres lie within two cells, wherever the plate is; three where they lie just on
+/// its faces.
+TEST(WallCells, OfAPlateAreItsThickness) {
+    const SpaceField field({20, 20, 20}, Side::cyclic);
+    for (const double at : {0.97, 1.0, 1.03, 1.05}) {
+        const Walls walls({plate({0.0, at, 0.0}, {2.0, 0.0, 0.0}, {0.0, 0.0, 2.0})});
+        SphereCells cells(field.layers());
+        cells.find(walls.bodies);
+        std::size_t count = 0;
+        for (const CellRun& run : cells.runs(0)) count += run.count;
+        EXPECT_EQ(count, (at == 1.05 ? 3u : 2u) * 400u) << at;
+    }
+}
+
+/// Across the sides of a cyclic box, on one rank and on two, and with arms from its pivot that run
+/// on.
+TEST(WallCells, AcrossCyclicSidesAreThoseElsewhere) {
+    const std::array<int, 3> box{30, 32, 31};
+    const SpaceField whole(box, Side::cyclic), low(box, Side::cyclic, 0, 13),
+        high(box, Side::cyclic, 13, 19);
+    const Walls here({cone({1.31, 1.12, 1.23}, {0.5, 0.6, 0.2}, 0.8, 0.3)}),
+        there({cone({2.81, 2.72, 2.73}, {0.5, 0.6, 0.2}, 0.8, 0.3)});
+    SphereCells all(whole.layers()), below(low.layers()), above(high.layers()),
+        shifted(whole.layers());
+    for (SphereCells* cells : {&all, &below, &above}) cells->find(here.bodies);
+    shifted.find(there.bodies);
+    const std::vector<int> owner = found_owners(whole, all, 1);
+    std::vector<int> parts = found_owners(low, below, 1);
+    const std::vector<int> upper = found_owners(high, above, 1);
+    parts.insert(parts.end(), upper.begin(), upper.end());
+    EXPECT_EQ(parts, owner);
+    // By whole cells along x, y and z: 15, 16, 15
+    const std::vector<int> moved = found_owners(whole, shifted, 1);
+    for (int j = 0; j < box[1]; ++j)
+        for (int k = 0; k < box[2]; ++k)
+            for (int i = 0; i < box[0]; ++i)
+                ASSERT_EQ(moved[whole.cell((i + 15) % 30, (j + 16) % 32, (k + 15) % 31)],
+                          owner[whole.cell(i, j, k)]);
+    for (const CellRun& run : shifted.runs(0)) EXPECT_LT(run.first.norm(), 1.3);
+}
+
+/// A drum that turns about its axis stays where it is to the last cell; one that turns about
+/// another axis does not.
+TEST(WallCells, OfADrumThatTurnsStay) {
+    const SpaceField field({30, 30, 30}, Side::wall);
+    const Vec3 axis{0.3, 0.4, 1.2};
+    SpaceWall drum = at_rest(SpaceWallKind::cylinder, {1.3, 1.3, 0.9}, axis);
+    drum.radius = 0.9;
+    drum.pivot = drum.place + 0.25 * axis;
+    const auto cells_at = [&](const Vec3& spin, double time) {
+        drum.motion = constant_motion({{}, spin});
+        const Walls walls({drum}, time);
+        SphereCells cells(field.layers());
+        cells.find(walls.bodies);
+        return found_owners(field, cells, 1);
+    };
+    const std::vector<int> start = cells_at(2.0 * axis, 0.0);
+    EXPECT_EQ(cells_at(2.0 * axis, 1.234), start);
+    EXPECT_NE(cells_at({0.0, 0.0, 1.0}, 1.234), start);
+}
+
+/// A search again finds what is kept, and what has moved.
+TEST(WallCells, FollowAWallThatMoves) {
+    const SpaceField field({30, 30, 30}, Side::wall);
+    SpaceWall gate = plate({0.52, 0.81, 0.63}, {1.0, 0.1, 0.0}, {0.0, 0.0, 1.0});
+    gate.motion = constant_motion({{0.0, 1.0, 0.0}, {}});
+    SphereCells kept(field.layers());
+    for (const double time : {0.0, 0.0, 0.31, 0.95}) {
+        const Walls walls({gate}, time);
+        kept.find(walls.bodies);
+        SphereCells anew(field.layers());
+        anew.find(walls.bodies);
+        EXPECT_EQ(found_owners(field, kept, 1), found_owners(field, anew, 1));
+        double height = 0.0;
+        for (const CellRun& run : kept.runs(0)) height += run.first.y() * run.count;
+        EXPECT_GT(kept.runs(0).size(), 10u);
+        EXPECT_NEAR(walls.bodies[0].position.y(), 0.81 + time, 1e-12);
+    }
+}
+
+/// A sphere that lies on an inclined plate and in a pipe that cuts its surface: no cell has two
+/// bodies, walls keep theirs, and a film fills the wedge between them, from both.
+TEST(WallCells, SpheresGetWhatWallsLeave) {
+    const SpaceField field({30, 30, 30}, Side::wall);
+    SpaceWall pipe = at_rest(SpaceWallKind::cylinder, {0.0, 1.5, 1.5}, {3.0, 0.0, 0.0});
+    pipe.radius = 0.3;
+    const Walls walls({pipe});
+    std::vector<ImmersedGrain> bodies = {sphere(1, {1.52, 1.5, 2.3})};
+    bodies.push_back(walls.bodies[0]);
+    SphereCells cells(field.layers()), wall_alone(field.layers());
+    cells.find(bodies);
+    wall_alone.find(walls.bodies);
+    const std::vector<int> owner = found_owners(field, cells, 2),
+                           alone = found_owners(field, wall_alone, 1);
+    std::size_t of_sphere = 0;
+    for (std::size_t c = 0; c < owner.size(); ++c) {
+        of_sphere += owner[c] == 0;
+        EXPECT_TRUE(alone[c] != 0 || owner[c] == 1) << c;
+    }
+    const double whole = pi / 6.0 / std::pow(edge, 3);
+    EXPECT_LT(of_sphere, whole - 5.0) << "the pipe cuts it";
+    EXPECT_GT(of_sphere, 0.9 * whole);
+    std::size_t from_sphere = 0, from_wall = 0;
+    for (const CellSide& side : cells.find_wedges().sides())
+        (owner[side.cell] == 0 ? from_sphere : from_wall) += 1;
+    EXPECT_GT(from_sphere, 20u);
+    EXPECT_GT(from_wall, 20u);
+}
+
+/// Fluid in a wall has its velocity, and the wall takes what the fluid loses.
+TEST(WallCells, MoveWithTheWall) {
+    SpaceField field({30, 30, 30}, Side::wall);
+    field.fill_randomly(4);
+    SpaceWall paddle = plate({0.5, 1.0, 0.5}, {2.0, 0.0, 0.0}, {0.0, 0.0, 2.0});
+    paddle.pivot = {1.0, 1.0, 1.0};
+    paddle.motion = constant_motion({{0.1, -0.2, 0.3}, {0.0, 0.5, 2.0}});
+    const Walls walls({paddle});
+    InteriorConstraint constraint(field);
+    constraint.place(walls.bodies);
+    const Vec3 before = field.momentum();
+    constraint.solve(field.all());
+    constraint.impose();
+    std::size_t count = 0;
+    for (const CellRun& run : constraint.cells().runs(0))
+        for (int c = 0; c < run.count; ++c, ++count) {
+            const Vec3 arm{run.first.x() + c * edge, run.first.y(), run.first.z()};
+            const Vec3 wanted = walls.bodies[0].contact_motion.at(arm);
+            for (int axis = 0; axis < 3; ++axis)
+                ASSERT_NEAR(field.velocity(axis)[run.cell + c], wanted[axis], 1e-12);
+        }
+    EXPECT_GT(count, 800u);
+    const Vec3 lost = before - field.momentum();
+    EXPECT_GT(norm(lost), 1e-3);
+    EXPECT_LT(norm(constraint.impulse(0).linear - lost), 1e-12);
+}
+
+}  // namespace
+}  // namespace turbidite
