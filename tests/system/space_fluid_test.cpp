@@ -2,6 +2,7 @@
 //
 // Spheres in a liquid, from the case file to the files of the run: OpenFOAM and contact dynamics in
 // three dimensions.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/system/fluid_files.hpp"
@@ -332,6 +333,88 @@ TEST_F(SpheresThatTouch, RiseFromTheFloorWithAnyStep) {
     const double fine = speed(on_floor, light + " --set time.step=0.005", "fine");
     EXPECT_NEAR(fine, coarse, 0.05 * coarse);
     EXPECT_GT(fine, 0.3 * alone) << "more than the wall slows it";
+}
+
+/// As from the floor (above), from a plate in the box.
+TEST_F(SpheresThatTouch, RiseFromAPlateInside) {
+    scratch.write("plate.csv",
+                  "id,kind,x,y,z,ax,ay,az,bx,by,bz,thickness\n"
+                  "1,plate,0,1,0,4,0,0,0,0,4,0.5\n");
+    const std::string light = " --set grains.density_ratio=0.5",
+                      inside = light + " --set domain.walls_file=plate.csv";
+    const double from_floor = speed("1,1.43,0.5,1.57,free\n", light, "floor");
+    const std::string on_plate = "1,1.43,1.75,1.57,free\n";
+    const double coarse = speed(on_plate, inside, "coarse");
+    // The fluid sees the plate a little thicker than it is, so that they overlap more.
+    EXPECT_GT(coarse, 0.35 * from_floor);
+    EXPECT_LT(coarse, from_floor);
+    EXPECT_NEAR(speed(on_plate, inside + " --set time.step=0.005", "fine"), coarse, 0.08 * coarse);
+    EXPECT_EQ(speed(on_plate, inside + " --set fluid.ranks=2", "ranks"), coarse);
+}
+
+/// Spheres in a drum with liquid, which turns: on one rank and two, in OpenFOAM and in the box
+/// program, and in two parts.
+class DrumWithLiquid : public SpaceFluid {
+ protected:
+    void SetUp() override {
+        SpaceFluid::SetUp();
+        write_drum("0.5", "1");
+        // At its bottom and its sides, 0.01 D from the wall
+        scratch.write("grains.csv",
+                      "id,x,y,z\n1,2,1.56,0.6\n2,2,1.56,1.7\n3,2,1.56,2.8\n"
+                      "4,2.85,2.1,1.1\n5,1.15,2.1,2.2\n");
+    }
+    void write_drum(const std::string& thickness, const std::string& spin) {
+        scratch.write("drum.csv",
+                      "id,kind,x,y,z,ax,ay,az,r1,thickness,wx,wy,wz\n"
+                      "1,cylinder,2,2.5,0,0,0,4,1.7," +
+                          thickness + ",0,0," + spin + "\n");
+    }
+    Answer play(const std::string& folder, const std::string& words) const {
+        return turbidite(
+            "run case.yaml --set domain.walls_file=drum.csv --set domain.left=wall"
+            " --set domain.right=wall --set grains.file=grains.csv"
+            " --set time.end=1.6 --set output.interval=0.2 --set checkpoint.interval=0.8"
+            " --out " +
+            folder + words);
+    }
+};
+
+TEST_F(DrumWithLiquid, GivesTheSameNumbersEverywhere) {
+    const Answer answer = play("foam", "");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    const Columns run = history("foam");
+    double contacts = 0.0;
+    for (const double count : run.at("contacts")) contacts = std::max(contacts, count);
+    EXPECT_GT(contacts, 0.0);
+    // They go with the drum, to the right at its bottom, and the liquid lifts none off the axis.
+    EXPECT_GT(run.at("mean_velocity_x").back(), 0.02);
+    const auto record = nlohmann::json::parse(text(scratch.path() / "foam/run.json"));
+    EXPECT_LE(record["maxima"]["fluid_balance"].get<double>(), 1e-9);
+    EXPECT_LE(record["maxima"]["grain_balance"].get<double>(), 1e-9);
+
+    ASSERT_EQ(play("box", " --set fluid.program=box").code, 0);
+    ASSERT_EQ(play("ranks", " --set fluid.program=box --set fluid.ranks=2").code, 0);
+    ASSERT_EQ(play("parts", " --set fluid.program=box --set time.end=0.8").code, 0);
+    ASSERT_EQ(turbidite("resume parts --set time.end=1.6").code, 0);
+    EXPECT_EQ(lines_without_wall_times(text(scratch.path() / "parts/history.csv")),
+              lines_without_wall_times(text(scratch.path() / "box/history.csv")));
+    const Columns box = history("box"), ranks = history("ranks");
+    for (const char* name : {"mean_velocity_x", "mean_velocity_y", "mean_position_y", "flow_x"})
+        for (std::size_t row = 1; row < run.at(name).size(); ++row) {
+            EXPECT_NEAR(box.at(name)[row], run.at(name)[row], 1e-8) << name << row;
+            EXPECT_NEAR(ranks.at(name)[row], box.at(name)[row], 1e-8) << name << row;
+        }
+    write_drum("0.5", "0");
+    ASSERT_EQ(play("rest", " --set fluid.program=box").code, 0);
+    EXPECT_LT(history("rest").at("mean_velocity_x").back(), 0.01);
+}
+
+TEST_F(DrumWithLiquid, IsRefusedWhereTheLiquidWouldPass) {
+    write_drum("0.2", "1");
+    const Answer answer = play("thin", "");
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_SAYS(answer.err, "at least 2 cells, here 0.3333 D");
 }
 
 TEST_F(SpaceFluid, TheSurfaceThatTheFluidSeesChangesTheFall) {
