@@ -6,7 +6,7 @@
 #include <string>
 
 #include "coupler/protocol/failure.hpp"
-#include "coupler/protocol/rounding.hpp"
+#include "coupler/rigid/impulse.hpp"
 #include "coupler/rigid/rotation.hpp"
 
 namespace turbidite {

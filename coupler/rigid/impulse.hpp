@@ -26,4 +26,8 @@ inline Impulse operator-(const Impulse& a, const Impulse& b) {
     return {a.linear - b.linear, a.moment - b.moment};
 }
 
+/// Of a momentum that does not change: its rounding, some 1e-16 to 1e-14 of it, is no defect of a
+/// balance whose terms are all rounding.
+constexpr double beyond_rounding = 1e-7;
+
 }  // namespace turbidite

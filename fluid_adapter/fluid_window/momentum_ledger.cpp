@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "coupler/protocol/rounding.hpp"
+#include "coupler/rigid/impulse.hpp"
 
 namespace turbidite {
 

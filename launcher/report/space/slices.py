@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.colors import ListedColormap
 
 import grain_drawing
 import grain_files
@@ -21,6 +22,7 @@ INCHES = 5.6           # width of a picture, its text readable at 420 pixels
 TALLEST = 7.0
 MARGIN = 0.55          # of the labels
 COLOURED_PART = pictures.COLOURED_PART
+WALLS = ListedColormap(['#8a8a8a'])
 
 
 @dataclass
@@ -35,7 +37,7 @@ class Slice:
     edges: list             # of the cells, [across, up]
     pressure: np.ndarray    # over rho_f
     velocity: np.ndarray    # (rows, columns, 3)
-    covered: np.ndarray     # share that spheres cover
+    covered: np.ndarray     # share that spheres and walls cover
 
     def name(self, run):
         return f'{AXES[self.axis]} = {self.place / run.scale("D"):.4g} D'
@@ -152,6 +154,9 @@ def panel(run, one, grains, values, limit, colours, label):
     axes = figure.add_axes((left, below / total, width / INCHES, width * aspect / total))
     bar = figure.add_axes((0.25, 0.42 / total, 0.5, 0.12 / total))
     image = coloured(axes, x, y, values, cmap=colours, vmin=-limit, vmax=limit)
+    walls = walls_share(run, one, grains)
+    if walls is not None:
+        coloured(axes, x, y, np.ones_like(walls), cmap=WALLS, vmin=0, vmax=1, alpha=walls)
     if grains is not None:
         grain_drawing.draw(axes, cut_grains(run, one, grains), diameter)
     axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), aspect='equal')
@@ -161,6 +166,21 @@ def panel(run, one, grains, values, limit, colours, label):
     axes.tick_params(labelsize=7)
     pictures.bar_below(figure, image, bar, label, 'both')
     return figure
+
+
+def walls_share(run, one, grains):
+    """Of each cell, what walls inside the box cover: the covered share away from the spheres; None without such walls."""
+    if not run.case.get('domain.walls_file'):
+        return None
+    share = one.covered.copy()
+    if grains is None:
+        return share
+    x, y = (0.5 * (edges[1:] + edges[:-1]) for edges in one.edges)
+    near = run.scale('D') / float(run.case['fluid.cells_per_diameter'])  # spheres cover a little more than they are
+    cut = cut_grains(run, one, grains)
+    for centre, radius in zip(cut.centres, cut.radii):
+        share[np.hypot(x[None, :] - centre[0], y[:, None] - centre[1]) < radius + near] = 0.0
+    return share
 
 
 def coloured(axes, x, y, values, **how):
@@ -176,5 +196,5 @@ def caption(run, shown):
     planes = ', '.join(sorted({one.name(run) for one, _ in shown}))
     return (f'Planes {planes} (output.slices; files for ParaView: fluid/slices/slices.pvd). Colour: vertical velocity of the '
             'fluid on one scale, red up, blue down; then its reduced pressure, the mean outside spheres taken off. Spheres '
-            f'where the plane cuts them. Fastest here: {fastest[0] / run.scale("u_c"):.3g} u_c at t = '
+            f'{"and walls (grey) " if run.case.get("domain.walls_file") else ""}where the plane cuts them. Fastest here: {fastest[0] / run.scale("u_c"):.3g} u_c at t = '
             f'{fastest[1] / run.scale("t_c"):.3g} t_c.')

@@ -218,6 +218,16 @@ class Slices(SpaceRun):
         self.assertEqual(names, ['slice-0.png', 'slice-1.png', 'slice-pressure-0.png'])
         self.assertIn('Planes x = 2 D, z = 1.25 D', (self.folder / 'report.html').read_text())
 
+    def test_walls_inside_are_what_spheres_do_not_cover(self):
+        self.z.covered[:, 2:4] = 1.0   # 1 D < x < 2 D, where two of the spheres' right halves are
+        self.assertIsNone(slices.walls_share(self.run_data, self.z, self.grains()))
+        self.run_data.case['domain.walls_file'] = 'walls.csv'
+        np.testing.assert_allclose(slices.walls_share(self.run_data, self.z, None), self.z.covered)
+        share = slices.walls_share(self.run_data, self.z, self.grains())
+        self.assertEqual(share[1, 2], 0.0)    # (1.25, 0.75) D, beside a sphere's centre at (1, 0.5) D
+        self.assertEqual(share[8, 2], 1.0)
+        self.assertEqual(share[8, 5], 0.0)
+
     def test_a_damaged_one_is_said(self):
         whole = slice_file(2, 1.25)
         self.write('fluid/slices/z1.25_00000010.vtr', whole[:-400])
