@@ -66,17 +66,19 @@ def read(time, path):
     return Slice(time, axis, float(edges[axis][0]), across, up, [edges[across], edges[up]], pressure, velocity, covered)
 
 
-def cut_grains(run, one, grains):
-    """The spheres as discs where the plane cuts them; images beyond cyclic sides of its axis are not forgotten."""
+def cut_grains(run, one, grains, larger=0.0):
+    """The spheres, with radii larger by so much, as discs where the plane cuts them; images beyond cyclic sides of its
+    axis are not forgotten."""
     positions = grains.positions()
     length = [*run.size(), run.depth()][one.axis] * run.scale('D')
     off = positions[:, one.axis] - one.place
     sides = {0: 'left', 1: 'bottom', 2: 'front'}
     if run.case.get(f'domain.{sides[one.axis]}') == 'cyclic':
         off -= length * np.round(off / length)
-    there = np.abs(off) < grains.radii
+    radii = grains.radii + larger
+    there = np.abs(off) < radii
     return grain_files.Grains(grains.time, positions[there][:, [one.across, one.up]],
-                              np.sqrt(grains.radii[there]**2 - off[there]**2))
+                              np.sqrt(radii[there]**2 - off[there]**2))
 
 
 def add(page, run):
@@ -176,10 +178,10 @@ def walls_share(run, one, grains):
     if grains is None:
         return share
     x, y = (0.5 * (edges[1:] + edges[:-1]) for edges in one.edges)
-    near = run.scale('D') / float(run.case['fluid.cells_per_diameter'])  # spheres cover a little more than they are
-    cut = cut_grains(run, one, grains)
+    # Spheres cover a little more than they are.
+    cut = cut_grains(run, one, grains, run.scale('D') / float(run.case['fluid.cells_per_diameter']))
     for centre, radius in zip(cut.centres, cut.radii):
-        share[np.hypot(x[None, :] - centre[0], y[:, None] - centre[1]) < radius + near] = 0.0
+        share[np.hypot(x[None, :] - centre[0], y[:, None] - centre[1]) < radius] = 0.0
     return share
 
 
