@@ -10,6 +10,7 @@
 #include "coupler/protocol/scene/mesh_rows.hpp"
 #include "coupler/protocol/scene/sides.hpp"
 #include "coupler/protocol/scene/splitting.hpp"
+#include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/transform_length.hpp"
 #include "launcher/case/keys/fluid_program.hpp"
@@ -276,8 +277,29 @@ void tell_closed_contacts(const Settings& s, std::vector<std::string>& notes) {
         std::floor(100.0 * (1.0 - cells_to_part / cells)) / 100.0, papers_splitting));
 }
 
+/// The one that corrects until a tolerance.
+std::string iterated_splitting() {
+    const auto at = std::find_if(splittings.begin(), splittings.end(),
+                                 [](const Splitting& splitting) { return splitting.iterated; });
+    return at->name;
+}
+
+/// Only a splitting that corrects pressure after the contacts turns the fluid around a grain round
+/// with it; with the others this fluid takes back a part of the rebound in the windows after it.
+void tell_weak_rebounds(const Settings& s, std::vector<std::string>& notes) {
+    if (!s.flag("fluid.enabled") || splitting_of(s).iterated) return;
+    const std::string key = positive_coefficient(s, "restitution");
+    if (key.empty()) return;
+    notes.push_back(fmt::format(
+        "{} = {} with fluid.splitting = {}: rebounds come out too weak, since pressure learns of "
+        "impacts only in the next window; with {} they do not, at some four times the cost where "
+        "grains touch (docs/splittings.md)",
+        key, s.text(key), s.text("fluid.splitting"), iterated_splitting()));
+}
+
 void fluid_notes(const Settings& s, std::vector<std::string>& notes) {
     tell_closed_contacts(s, notes);
+    tell_weak_rebounds(s, notes);
     const std::string& scheme = s.text("fluid.transport_scheme");
     if (const auto limit = step_limit_exceeded(s, SchemeKind::central, highest_peak))
         notes.push_back(

@@ -160,6 +160,20 @@ std::string notes_of(const ResolvedCase& resolved) {
     return all;
 }
 
+TEST_F(FluidLimits, ReboundsThatTheFluidTakesBackAreTold) {
+    const auto told = [this](const std::string& splitting, const std::string& restitution) {
+        return notes_of(load("", {"coupling.scheme=joint", "fluid.splitting=" + splitting,
+                                  "contact.restitution=" + restitution}));
+    };
+    const std::string weak = "rebounds come out too weak";
+    EXPECT_SAYS(told("explicit-multiplier", "0.9"), weak);
+    EXPECT_SAYS(told("marchuk-yanenko", "0.9"), "contact.restitution = 0.9");
+    EXPECT_EQ(told("implicit-multiplier", "0.9").find(weak), std::string::npos);
+    EXPECT_EQ(told("explicit-multiplier", "0").find(weak), std::string::npos);
+    EXPECT_EQ(notes_of(load("", {"fluid.enabled=false", "contact.restitution=0.9"})).find(weak),
+              std::string::npos);
+}
+
 // Pressure that knows rigid discs holds those that touch on the mesh together.
 TEST_F(FluidLimits, GrainsThatPressureHoldsTogetherAreToldWithARadiusThatHelps) {
     const auto told = [this](const std::string& splitting, const std::string& radius, int cells) {
