@@ -59,7 +59,7 @@ InnerWalls walls_of(const Settings& settings, const CaseEntries& entries, const 
                                     std::max(settings.real("grains.overlap"), touching_tolerance));
     if (settings.flag("fluid.enabled"))
         append(read.problems,
-               check_thickness(read.walls, name, 1.0 / settings.real("fluid.cells_per_diameter")));
+               check_thickness(read.walls, name, settings));
     return read;
 }
 

@@ -9,6 +9,8 @@
 #include <limits>
 #include <map>
 
+#include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/scene/mesh_rows.hpp"
 #include "launcher/case/files/csv_table.hpp"
 #include "launcher/case/walls/space_walls.hpp"
 
@@ -100,6 +102,34 @@ Vec3 extent_of(const InnerWall& wall) {
     const double x = std::abs(wall.to[0] - wall.from[0]), y = std::abs(wall.to[1] - wall.from[1]);
     const double face = wall.thickness / std::hypot(x, y);
     return {x + face * y, y + face * x, 0.0};
+}
+
+/// The largest part along y of the normals of a wall.
+double upright_normal(const InnerWall& wall) {
+    if (!wall.space) {
+        const double x = wall.to[0] - wall.from[0], y = wall.to[1] - wall.from[1];
+        return std::abs(x) / std::hypot(x, y);
+    }
+    const SpaceForm& form = *wall.space;
+    const auto along_y = [](const Vec3& v) { return std::abs(v[1]) / norm(v); };
+    if (form.kind == SpaceWallKind::plate) return along_y(cross(form.a, form.b));
+    const double axis = along_y(form.a);
+    if (form.kind == SpaceWallKind::ring) return axis;
+    return form.kind == SpaceWallKind::cylinder ? std::sqrt(1.0 - axis * axis) : 1.0;
+}
+
+/// Of the row of cells at a height, the highest above the last one; nothing without a mesh [D].
+std::optional<double> row_height(const Settings& settings, double y) {
+    const auto size = real_list("domain.size", settings.text("domain.size"));
+    const std::optional<MeshRows> rows = mesh_rows(settings, size.at(1));
+    if (!rows) return std::nullopt;
+    double top = rows->equal_height();
+    if (y <= top * (1.0 + 1e-12)) return rows->height;
+    for (const double height : rows->stretched) {
+        top += height;
+        if (y <= top) return height;
+    }
+    return rows->largest();
 }
 
 /// Of the box, and where it repeats.
@@ -285,10 +315,14 @@ std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const 
 }
 
 std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
-                                         const std::string& source, double cell) {
+                                         const std::string& source, const Settings& settings) {
     std::vector<CaseProblem> problems;
-    const double least = least_cells_of_plate * cell;
-    for (const InnerWall& wall : walls)
+    const double cell = 1.0 / settings.real("fluid.cells_per_diameter");
+    for (const InnerWall& wall : walls) {
+        const double top = centre_of(wall)[1] + 0.5 * extent_of(wall)[1];
+        // Across a row the way through a wall of thickness t is t/|n_y|.
+        const double row = row_height(settings, top).value_or(cell);
+        const double least = least_cells_of_plate * std::max(cell, row * upright_normal(wall));
         // Exactly two cells are enough, to rounding.
         if (wall.thickness < least * (1.0 - 1e-12))
             problems.push_back(
@@ -300,7 +334,11 @@ std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
                  .allowed = fmt::format("The fluid would pass through it: at least {:.0f} cells, "
                                         "here {:.4g} D.",
                                         least_cells_of_plate, least),
-                 .remedy = "Give a column thickness, or use more fluid.cells_per_diameter."});
+                 .remedy = row > cell ? "Give a column thickness, or use a larger "
+                                        "fluid.stretch_from."
+                                      : "Give a column thickness, or use more "
+                                        "fluid.cells_per_diameter."});
+    }
     return problems;
 }
 

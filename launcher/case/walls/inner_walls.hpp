@@ -72,9 +72,10 @@ std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const 
 /// The fluid passes through plates thinner than this [cells].
 constexpr double least_cells_of_plate = 2.0;
 
-/// Reports plates that are too thin for a fluid with cells of this size [D].
+/// Reports walls that are too thin for the cells of the fluid that they reach, where rows are
+/// stretched upwards too.
 std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
-                                         const std::string& source, double cell);
+                                         const std::string& source, const Settings& settings);
 
 /// The value of `run.walls` in the plane: walls separated by `;`, each
 /// `id x1 y1 x2 y2 vx vy spin px py friction thickness` in the run's units.

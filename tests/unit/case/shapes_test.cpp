@@ -253,6 +253,24 @@ TEST_F(WallsFile, AWallThatIsLongerThanTheBoxRepeatsIsRefused) {
     EXPECT_EQ(with("1,4,3,4,12,0.4\n", "cyclic"), "");
 }
 
+/// Rows above 8 D are up to 4 times as high: what lies across them must be thicker there.
+TEST_F(WallsFile, WhereRowsAreStretchedAWallIsAsThickAsTwoOfThem) {
+    folder.write("grains.csv", "id,x,y\n9,0.6,1\n");
+    const auto with = [&](const std::string& row) {
+        folder.write("walls.csv", "id,x1,y1,x2,y2,thickness\n" + row);
+        return refusal(
+            "grains: {file: grains.csv, adapter: standalone-nscd}\n",
+            {"domain.walls_file=walls.csv", "fluid.enabled=true", "fluid.reynolds=36",
+             "fluid.cells_per_diameter=16", "domain.size=[8, 24]", "fluid.stretch_ratio=1.05",
+             "fluid.stretch_from=8", "fluid.allow_coarse=true"});
+    };
+    EXPECT_EQ(with("1,1,7.5,7,7.5,0.125\n"), "");
+    EXPECT_SAYS(with("1,1,22,7,22,0.125\n"), "larger fluid.stretch_from");
+    EXPECT_EQ(with("1,1,22,7,22,1.7\n"), "");
+    EXPECT_EQ(with("1,6,10,6,22,0.125\n"), "") << "an upright one";
+    EXPECT_SAYS(with("1,2,16,6,20,0.125\n"), "at least 2 cells");
+}
+
 TEST_F(WallsFile, IsForContactEnginesWithOrWithoutAFluid) {
     folder.write("walls.csv", "id,x1,y1,x2,y2\n1,0,0.001,8,0.001\n");
     const std::vector<std::string> wet = {"domain.walls_file=walls.csv", "fluid.enabled=true",
