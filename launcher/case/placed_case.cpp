@@ -58,8 +58,7 @@ InnerWalls walls_of(const Settings& settings, const CaseEntries& entries, const 
         read.problems = check_walls(read.walls, grains, forms, packing_box(settings), name,
                                     std::max(settings.real("grains.overlap"), touching_tolerance));
     if (settings.flag("fluid.enabled"))
-        append(read.problems,
-               check_thickness(read.walls, name, settings));
+        append(read.problems, check_thickness(read.walls, name, settings));
     return read;
 }
 
