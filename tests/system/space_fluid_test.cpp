@@ -101,7 +101,7 @@ class SpringsInALiquid : public SpaceFluid {
 // Two that spin about different axes, so that turns do not commute, and meet; one that falls alone.
 TEST_F(SpringsInALiquid, SinkTheSameAndCollide) {
     expect_the_same(
-        "1,1.45,2.5,2.0,1,0,2,1,0\n2,2.6,2.6,2.1,-1,0,0,2,1\n"
+        "1,1.45,2.5,2.0,0.3,0,2,1,0\n2,2.6,2.6,2.1,-0.3,0,0,2,1\n"
         "3,2.0,4.2,3.2,0,0.4,1,0,2\n",
         " --set domain.left=wall --set domain.right=wall --set domain.front=wall"
         " --set domain.back=wall",
@@ -111,7 +111,7 @@ TEST_F(SpringsInALiquid, SinkTheSameAndCollide) {
 // The same two half a box farther, and the third through the back.
 TEST_F(SpringsInALiquid, CollideAcrossCyclicSides) {
     expect_the_same(
-        "1,3.45,2.5,2.0,1,0,2,1,0\n2,0.6,2.6,2.1,-1,0,0,2,1\n"
+        "1,3.45,2.5,2.0,0.3,0,2,1,0\n2,0.6,2.6,2.1,-0.3,0,0,2,1\n"
         "3,2.0,4.2,3.8,0,0.4,1,0,2\n",
         "", {"standalone-md", "lammps-md", "lammps-md --set grains.ranks=2"});
 }
