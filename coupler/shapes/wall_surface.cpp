@@ -10,7 +10,7 @@ Vec3 unit(const Vec3& x) {
     return (1.0 / norm(x)) * x;
 }
 
-WallSurface rectangle(const SpaceWall& wall) {
+WallSurface rectangle(const SpaceWallShape& wall) {
     WallSurface surface;
     surface.point = wall.place + 0.5 * (wall.a + wall.b);
     surface.side = unit(wall.a);
@@ -20,7 +20,7 @@ WallSurface rectangle(const SpaceWall& wall) {
     return surface;
 }
 
-WallSurface round(const SpaceWall& wall) {
+WallSurface round(const SpaceWallShape& wall) {
     WallSurface surface;
     surface.round = true;
     surface.point = wall.place;
@@ -62,7 +62,7 @@ bool operator==(const WallSurface& a, const WallSurface& b) {
            same_ends(a.meridian[0], b.meridian[0]) && same_ends(a.meridian[1], b.meridian[1]);
 }
 
-WallSurface surface_of(const SpaceWall& wall) {
+WallSurface surface_of(const SpaceWallShape& wall) {
     return wall.kind == SpaceWallKind::plate ? rectangle(wall) : round(wall);
 }
 

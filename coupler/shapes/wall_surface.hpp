@@ -19,8 +19,8 @@ struct WallSurface {
 };
 bool operator==(const WallSurface& a, const WallSurface& b);
 
-/// At t = 0.
-WallSurface surface_of(const SpaceWall& wall);
+/// In the unit of the shape; of a SpaceWall at t = 0.
+WallSurface surface_of(const SpaceWallShape& wall);
 
 /// Of a point from the surface, >= 0 [m].
 double distance(const WallSurface& surface, const Vec3& point);

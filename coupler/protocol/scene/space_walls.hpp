@@ -35,15 +35,19 @@ struct SpaceWallName {
 /// All of them.
 const std::vector<SpaceWallName>& space_wall_names();
 
-/// A wall inside the box, at t = 0, and its motion.
-struct SpaceWall {
-    std::int32_t key = 0;  ///< of the wall, after those of the sides of the box
+/// Form and place, in one unit of length.
+struct SpaceWallShape {
     SpaceWallKind kind = SpaceWallKind::plate;
-    Vec3 place{};                        ///< [m]
-    Vec3 a{}, b{};                       ///< edges or axis; b of a plate only [m]
-    double radius = 0.0, radius2 = 0.0;  ///< of round walls [m]
-    double thickness = 0.0;              ///< [m]
-    Vec3 pivot{};  ///< moves with the displacement, and the wall turns about it [m]
+    Vec3 place{};
+    Vec3 a{}, b{};                       ///< edges or axis; b of a plate only
+    double radius = 0.0, radius2 = 0.0;  ///< of round walls
+};
+
+/// A wall inside the box, at t = 0 [m], and its motion.
+struct SpaceWall : SpaceWallShape {
+    std::int32_t key = 0;    ///< of the wall, after those of the sides of the box
+    double thickness = 0.0;  ///< [m]
+    Vec3 pivot{};            ///< moves with the displacement, and the wall turns about it [m]
     double friction = 0.0;
     std::int32_t material = -1;
     std::shared_ptr<const PrescribedMotion> motion;  ///< never null

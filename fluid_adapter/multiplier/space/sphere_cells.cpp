@@ -23,11 +23,11 @@ void SphereCells::find(const std::vector<ImmersedGrain>& grains) {
     runs_.resize(grains.size());
     find_neighbours(grains);
     // Walls first: spheres get what they leave.
-    for (const bool walls : {true, false})
-        for (std::size_t g = 0; g < grains.size(); ++g) {
-            if ((grains[g].wall != nullptr) != walls) continue;
-            walls ? find_wall(static_cast<int>(g)) : find_runs(static_cast<int>(g));
-        }
+    const int bodies = static_cast<int>(grains.size());
+    for (int g = 0; g < bodies; ++g)
+        if (grains[g].wall) find_wall(g);
+    for (int g = 0; g < bodies; ++g)
+        if (!grains[g].wall) find_runs(g);
     join_shut_in();
 }
 

@@ -26,14 +26,11 @@ namespace turbidite {
 constexpr double shortest_wall = 1e-6;  // [D]
 
 /// What a wall in space is, and how it moves (space_walls.hpp).
-struct SpaceForm {
-    SpaceWallKind kind = SpaceWallKind::plate;
-    Vec3 place{}, a{}, b{};              ///< [D]
-    double radius = 0.0, radius2 = 0.0;  ///< [D]
-    Vec3 velocity{};                     ///< [u_c]
-    Vec3 spin{};                         ///< [1/t_c]
-    Vec3 pivot{};                        ///< [D]
-    std::string material = {};           ///< empty: that of the touching grain, with `friction`
+struct SpaceForm : SpaceWallShape {  // [D]
+    Vec3 velocity{};                 ///< [u_c]
+    Vec3 spin{};                     ///< [1/t_c]
+    Vec3 pivot{};                    ///< [D]
+    std::string material = {};       ///< empty: that of the touching grain, with `friction`
 };
 
 struct InnerWall {

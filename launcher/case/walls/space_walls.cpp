@@ -291,16 +291,8 @@ std::string space_walls_csv(const std::vector<InnerWall>& walls) {
 }
 
 double surface_gap(const InnerWall& wall, const Vec3& place, double radius) {
-    const SpaceForm& form = *wall.space;
-    SpaceWall shape;
-    shape.kind = form.kind;
-    shape.place = form.place;
-    shape.a = form.a;
-    shape.b = form.b;
-    shape.radius = form.radius;
-    shape.radius2 = form.radius2;
     // Distances have no sign: walls hold grains on both sides.
-    return distance(surface_of(shape), place) - radius - 0.5 * wall.thickness;
+    return distance(surface_of(*wall.space), place) - radius - 0.5 * wall.thickness;
 }
 
 Vec3 middle_of(const SpaceForm& form) {

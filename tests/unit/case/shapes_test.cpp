@@ -253,7 +253,7 @@ TEST_F(WallsFile, AWallThatIsLongerThanTheBoxRepeatsIsRefused) {
     EXPECT_EQ(with("1,4,3,4,12,0.4\n", "cyclic"), "");
 }
 
-/// Rows above 8 D are up to 4 times as high: what lies across them must be thicker there.
+/// Rows above 8 D grow to some 0.8 D: what lies across them must be thicker there.
 TEST_F(WallsFile, WhereRowsAreStretchedAWallIsAsThickAsTwoOfThem) {
     folder.write("grains.csv", "id,x,y\n9,0.6,1\n");
     const auto with = [&](const std::string& row) {

@@ -43,17 +43,6 @@ std::vector<int> owners(const SpaceField& field, const std::vector<ImmersedGrain
     return owner;
 }
 
-std::vector<int> found_owners(const SpaceField& field, const SphereCells& cells, int grains) {
-    std::vector<int> owner(field.owned_cells(), -1);
-    for (int g = 0; g < grains; ++g)
-        for (const CellRun& run : cells.runs(g))
-            for (int c = 0; c < run.count; ++c) {
-                EXPECT_EQ(owner[run.cell + c], -1) << "two grains have cell " << run.cell + c;
-                owner[run.cell + c] = g;
-            }
-    return owner;
-}
-
 TEST(SphereCells, AreThoseInsideDividedByPlanes) {
     for (const Side side : {Side::cyclic, Side::wall}) {
         const SpaceField field({30, 32, 31}, side);

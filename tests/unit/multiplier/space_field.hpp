@@ -12,6 +12,7 @@
 #include "coupler/shapes/sphere.hpp"
 #include "fluid_adapter/multiplier/fluid_field.hpp"
 #include "fluid_adapter/multiplier/immersed_grain.hpp"
+#include "fluid_adapter/multiplier/space/sphere_cells.hpp"
 
 namespace turbidite {
 
@@ -81,6 +82,19 @@ inline ImmersedGrain sphere(GrainId id, const Eigen::Vector3d& at, double radius
     grain.effective_inertia = body.effective_inertia(2, 2);
     grain.contact_motion = {{0.1 * static_cast<double>(id), -0.5, 0.2}, {0.3, -0.7, 1.1}};
     return grain;
+}
+
+/// Body of each of the rank's cells, -1 none.
+inline std::vector<int> found_owners(const SpaceField& field, const SphereCells& cells,
+                                     std::size_t bodies) {
+    std::vector<int> owner(field.owned_cells(), -1);
+    for (std::size_t g = 0; g < bodies; ++g)
+        for (const CellRun& run : cells.runs(g))
+            for (int c = 0; c < run.count; ++c) {
+                EXPECT_EQ(owner[run.cell + c], -1) << "two bodies have cell " << run.cell + c;
+                owner[run.cell + c] = static_cast<int>(g);
+            }
+    return owner;
 }
 
 }  // namespace turbidite

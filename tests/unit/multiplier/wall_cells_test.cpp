@@ -61,19 +61,6 @@ struct Walls {
     std::vector<ImmersedGrain> bodies;
 };
 
-/// Body of each of the rank's cells, -1 none.
-std::vector<int> found_owners(const SpaceField& field, const SphereCells& cells,
-                              std::size_t bodies) {
-    std::vector<int> owner(field.owned_cells(), -1);
-    for (std::size_t g = 0; g < bodies; ++g)
-        for (const CellRun& run : cells.runs(g))
-            for (int c = 0; c < run.count; ++c) {
-                EXPECT_EQ(owner[run.cell + c], -1) << "two bodies have cell " << run.cell + c;
-                owner[run.cell + c] = static_cast<int>(g);
-            }
-    return owner;
-}
-
 /// How many cells can be reached through faces between free cells.
 std::size_t reached(const SpaceField& field, std::vector<int> owner, const CellPlace& from) {
     const CellGrid& grid = field.grid();
