@@ -49,7 +49,9 @@ TEST_F(FailingRun, AnMpirunThatStaysAfterACrashIsKilled) {
     const pid_t run =
         start(4, "", "env PATH=" + bin.string() + ":$PATH " + std::string(TURBIDITE_PROGRAM));
     for (const pid_t process : processes("turbidite-grains")) kill(process, SIGKILL);
+    const Stopwatch watch;
     const Answer answer = end_of(run);
+    EXPECT_LT(watch.seconds(), 3.0 + longest_with_report);  // limits.stall_hard
     EXPECT_EQ(answer.code, 4);
     EXPECT_SAYS(answer.err, "mpirun has not ended within limits.stall_hard = 3 s and is killed");
     EXPECT_SAYS(answer.err, "The run failed: grains rank 0 was ended by signal 9");

@@ -62,6 +62,11 @@ class ResumeAfter : public FailingRun {
         return false;
     }
 
+    /// Whether the last command found a set to go on from, and did not begin afresh.
+    bool went_on() const {
+        return text(scratch.path() / "out").find(" goes on after window ") != std::string::npos;
+    }
+
     bool begun() const { return fs::exists(run_folder() / "case.yaml"); }
 
     static int kills() {
@@ -75,13 +80,14 @@ class ResumeAfter : public FailingRun {
 TEST_F(ResumeAfter, EverythingIsKilledAtRandomMoments) {
     std::mt19937 random(2011);
     std::uniform_int_distribution<int> moment(20, 2500);  // [ms]
-    int resumptions = 0, completed = 0;
+    int resumptions = 0, completed = 0;  // resumptions: runs that went on from a set
     for (int left = kills(); left > 0 && !HasFailure();) {
         const bool again = begun();
-        resumptions += again ? 1 : 0;
         const pid_t run = begin(std::string(TURBIDITE_PROGRAM) +
                                 (again ? " resume run" : " run small.yaml --force --out run"));
-        if (!ended_within(run, Milliseconds(moment(random)))) {
+        const bool ended = ended_within(run, Milliseconds(moment(random)));
+        resumptions += went_on() ? 1 : 0;
+        if (!ended) {
             --left;
             continue;
         }
@@ -93,6 +99,7 @@ TEST_F(ResumeAfter, EverythingIsKilledAtRandomMoments) {
         const Answer answer = resume();
         EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
         EXPECT_EQ(lines_of_history("run"), whole_);
+        resumptions += answer.out.find(" goes on after window ") != std::string::npos ? 1 : 0;
     }
     EXPECT_GT(resumptions, 0);
     std::printf("%d kills, %d resumptions, %d runs completed in between\n", kills(), resumptions,

@@ -15,7 +15,9 @@ TEST_P(SilentPartner, EndsTheRunWithTheWaitForTable) {
     const auto partner = processes("turbidite-" + role);
     ASSERT_EQ(partner.size(), 1u);
     kill(partner[0], SIGSTOP);
+    const Stopwatch watch;
     const Answer answer = end_of(run);
+    EXPECT_LT(watch.seconds(), 3.0 + longest_with_report);  // limits.stall_hard
     EXPECT_EQ(answer.code, 5);
     EXPECT_SAYS(answer.out, "still waiting for");  // after limits.stall_soft
     EXPECT_SAYS(answer.err, "from " + role + " rank 0 (");
@@ -59,7 +61,9 @@ TEST_P(SilentCoupler, EndsTheParticipants) {
     const auto coupler = processes("turbidite-coupler");
     ASSERT_EQ(coupler.size(), 1u);
     kill(coupler[0], SIGSTOP);
+    const Stopwatch watch;
     EXPECT_EQ(end_of(run).code, 5);
+    EXPECT_LT(watch.seconds(), 4.5 + longest_with_report);
     expect_nothing_left();
     EXPECT_SAYS(text(run_folder() / "logs/fluid.log") + text(run_folder() / "logs/grains.log"),
                 "the coupler has been silent for 4 s");
