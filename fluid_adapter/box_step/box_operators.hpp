@@ -7,10 +7,12 @@
 //     G p    = (p_{+1} - p_{-1})/(2h)
 //     D u    = sum over axes of (u_{+1} - u_{-1})/(2h)
 //     L u    = sum over axes of d2 u/h2
-//     flux   = S.u + e,    e = k e_old + dt (q_{+1} - q)/(4h) on the face between two cells,
+//     flux   = S.u + e,    e = w e_old + dt (q_{+1} - q)/(4h) on the face between two cells,
 //                          q = w d2 p
 //     Q p    = sum over axes of d2 q/(4 h2)
 //
+// e is the velocity that a face has beyond S.u. In the fluid w = k = 1/(1 + 4 nu dt/h2), which is
+// implicit in time, (e - e_old)/dt = -(dp/dn - S.G p) - 4 nu/h2 e: in steady flow e knows no dt.
 // With w = 1 the flux is what the projection (box_step.hpp) leaves for this p: -D G p + Q p is
 // minus the compact Laplacian. w = 0 in cells inside grains, where the fluid is rigid: faces
 // between two such cells carry S.u and no more, and Q stays symmetric.
@@ -52,13 +54,12 @@ struct ViscousSums {
     double sum = 0.0;     ///< of r
 };
 
-/// The excess flux of the last window, laid out as BoxStep::excess, of which the part k remains on
-/// faces with a cell of w = 1, what wedge_flow.hpp says on those of a film, and nothing on others
-/// and on the sides of the box.
+/// The excess flux of the last window, laid out as BoxStep::excess, of which the part w remains on
+/// faces (the larger w of their two cells), what wedge_flow.hpp says on those of a film, and
+/// nothing on the sides of the box.
 struct ExcessFlux {
     VelocityPointers e;
-    double k = 1.0;
-    const double* w;                  ///< over the rank's cells
+    const double* w;                  ///< over the rank's cells, 0 to 1
     const WedgeFlow* film = nullptr;  ///< none: no face has one
 };
 

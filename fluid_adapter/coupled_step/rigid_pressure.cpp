@@ -9,13 +9,11 @@ namespace turbidite {
 
 void RigidPressure::begin(Constraint& constraint, double dt, double k) {
     dt_ = dt;
-    kept_ = k;
     work_.images.have(step_.layers().components());
     residual().resize(step_.cells());
-    // w of box_operators.hpp, 0 in covered cells: faces between two carry the rigid motion alone,
-    // and in wedges a film
-    outside_.assign(step_.cells(), 1.0);
-    constraint.clear_covered(outside_.data());
+    // 0 in covered cells: faces between two carry the rigid motion alone, and in wedges a film
+    w_.assign(step_.cells(), k);
+    constraint.clear_covered(w_.data());
     film_.begin(constraint.film_sides(), step_.layers(), step_.excess_pointers(), step_.viscosity(),
                 step_.cell_area(), dt);
 }

@@ -22,8 +22,8 @@ class RigidPressure {
         step.keep_pressure();
     }
 
-    /// Takes the grains' places in a window of length dt [s]; k is the part of the excess that
-    /// remains of the last window's outside grains.
+    /// Takes the grains' places in a window of length dt [s]; k is the part of the excess flux that
+    /// remains outside grains.
     void begin(Constraint& constraint, double dt, double k);
 
     /// Corrects the window's velocity and p until the rms of r is below the tolerance [1/s].
@@ -42,13 +42,13 @@ class RigidPressure {
     std::vector<double>& residual() { return work_.images[0]; }
     std::vector<double>& later() { return work_.images[1]; }
     RigidChange& rigid() { return work_.change; }  // W(-dt G d)
-    ExcessFlux excess() { return {step_.excess_pointers(), kept_, outside_.data(), &film_}; }
+    ExcessFlux excess() { return {step_.excess_pointers(), w_.data(), &film_}; }
 
     BoxStep& step_;
     CorrectionWork& work_;
-    double dt_ = 0.0, kept_ = 1.0;
+    double dt_ = 0.0;
     WedgeFlow film_;
-    std::vector<double> outside_, image_;
+    std::vector<double> w_, image_;      // w of box_operators.hpp
     const double* direction_ = nullptr;  // z itself if there is but one iteration, or later()
 };
 

@@ -135,17 +135,17 @@ TEST(Layers, HaveTheOperatorsOfPlanes) {
         VelocityRows& g = gradients[each == &box ? 0 : 1];
         g.resize(each->layers().components(), each->cells());
         BoxOperators operators = each->operators();
-        const std::vector<double> w(each->cells(), 1.0);
+        const std::vector<double> w(each->cells(), 0.5);
         operators.gradient(dt, each->velocity(1), g.pointers());
         std::vector<double> image(each->cells());
-        operators.flux_image(dt, {VelocityPointers(), 1.0, w.data()}, each->velocity(0),
-                             g.pointers(), w.data(), image.data());
-        operators.update_excess(dt, each->velocity(0), {each->excess_pointers(), 0.5, w.data()});
+        operators.flux_image(dt, {VelocityPointers(), w.data()}, each->velocity(0), g.pointers(),
+                             w.data(), image.data());
+        operators.update_excess(dt, each->velocity(0), {each->excess_pointers(), w.data()});
         VelocityPointers u(each->layers().components());
         for (int axis = 0; axis < u.size(); ++axis) u[axis] = each->velocity(axis);
         std::vector<double> residual(each->cells());
-        operators.flux_residual(dt, each->velocity(0), u, {each->excess_pointers(), 0.5, w.data()},
-                                {}, residual.data());
+        operators.flux_residual(dt, each->velocity(0), u, {each->excess_pointers(), w.data()}, {},
+                                residual.data());
         image.insert(image.end(), residual.begin(), residual.end());
         images.push_back(image);
     }

@@ -77,7 +77,7 @@ class FilmOnEveryFace : public testing::Test {
         return k * (old[axis][cell(at)] - phi * dt * slope);
     }
 
-    ExcessFlux excess() { return {step.excess_pointers(), 0.5, w.data(), &film}; }
+    ExcessFlux excess() { return {step.excess_pointers(), w.data(), &film}; }
 
     BoxStep step{cyclic_box()};
     std::mt19937 random{3};

@@ -82,7 +82,7 @@ inline std::vector<double> flux_defect(BoxStep& step) {
     const std::vector<double> none(step.cells(), 0.0);
     std::vector<double> r(step.cells());
     step.operators().flux_residual(time_step, none.data(), {step.velocity(0), step.velocity(1)},
-                                   {step.excess_pointers(), 0.0, none.data()}, {}, r.data());
+                                   {step.excess_pointers(), none.data()}, {}, r.data());
     const std::vector<double>&x = step.excess(0), &y = step.excess(1);
     constexpr int n = cells_across;
     for (int j = 0; j < n; ++j)
