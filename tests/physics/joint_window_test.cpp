@@ -52,7 +52,8 @@ TEST_P(JointWindow, EndsWithVelocitiesThatItsContactsAdmit) {
     for (int n = 0; n < 150; ++n) {
         run.advance();
         ASSERT_NEAR(run.mismatch(), largest_difference_from_contacts(run), 1e-12) << n;
-        ASSERT_LE(run.contact_violation(), 2.0 * setup.joint_tolerance) << n;
+        // Two grains, and what the contact solve itself leaves
+        ASSERT_LE(run.contact_violation(), 2.01 * setup.joint_tolerance) << n;
         in_rounds += run.rounds() > 1 ? 1 : 0;
     }
     EXPECT_GT(run.contacts(), 100);
