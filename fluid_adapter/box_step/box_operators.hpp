@@ -12,9 +12,9 @@
 //     Q p    = sum over axes of d2 q/(4 h2)
 //
 // e is the velocity that a face has beyond S.u. In the fluid w = k = 1/(1 + 4 nu dt/h2), which is
-// implicit in time, (e - e_old)/dt = -(dp/dn - S.G p) - 4 nu/h2 e: in steady flow e knows no dt.
-// With w = 1 the flux is what the projection (box_step.hpp) leaves for this p: -D G p + Q p is
-// minus the compact Laplacian. w = 0 in cells inside grains, where the fluid is rigid: faces
+// implicit in time, (e - e_old)/dt = -(dp/dn - S.G p) - 4 nu/h2 e: in steady flow e does not depend
+// on dt. With w = 1 the flux is what the projection (box_step.hpp) leaves for this p: -D G p + Q p
+// is minus the compact Laplacian. w = 0 in cells inside grains, where the fluid is rigid: faces
 // between two such cells carry S.u and no more, and Q stays symmetric.
 //
 // Faces of a film between cells of grains that touch (wedge_flow.hpp) carry its e, to which div e

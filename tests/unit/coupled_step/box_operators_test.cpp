@@ -134,7 +134,7 @@ TEST_P(Operators, TheExcessIsTheFluxOfTheResidual) {
 }
 
 /// Under a pressure that stays e tends to (h2/4 nu) (d2 p_{+1} - d2 p)/(4h), whatever dt is.
-TEST_P(Operators, TheExcessOfSteadyFlowKnowsNoStep) {
+TEST_P(Operators, TheExcessOfSteadyFlowDoesNotDependOnTheStep) {
     constexpr double viscosity = 0.3, squared = cell_size * cell_size;
     std::vector<double> p(size()), w(size());
     fill_randomly(p, 1);
