@@ -236,26 +236,31 @@ void BoxOperators::begin_velocity(const VelocityPointers& u, const PendingChange
 void BoxOperators::kept_along(int j, int k, const ExcessFlux& excess, double* face) {
     const double* w = w_.row(j, k);
     const int nx = layers_.nx;
-    kept_row(nx + 1, 1.0, w - 1, w, excess.e[0] + layers_.face_row(0, j, k), face);
+    kept_row(nx + 1, w - 1, w, excess.e[0] + layers_.face_row(0, j, k), face);
     // On a side e is the flux minus the boundary value of this window: it is not carried over.
     if (!layers_.periodic_x) face[0] = face[nx] = 0.0;
 }
 
 /// What remains of e on the faces below layer j.
 void BoxOperators::kept_below(int j, const ExcessFlux& excess, double* faces) {
-    const double kept = layers_.side_below(j) ? 0.0 : 1.0;
+    if (layers_.side_below(j)) {
+        std::fill_n(faces, layers_.layer(), 0.0);
+        return;
+    }
     for (int k = 0; k < layers_.nz; ++k, faces += layers_.nx) {
         const double* below = w_.row(j - 1, k);
-        kept_row(layers_.nx, kept, below, w_.row(j, k), excess.e[1] + layers_.face_row(1, j, k),
-                 faces);
+        kept_row(layers_.nx, below, w_.row(j, k), excess.e[1] + layers_.face_row(1, j, k), faces);
     }
 }
 
 /// What remains of e on the faces behind row k of layer j.
 void BoxOperators::kept_behind(int j, int k, const ExcessFlux& excess, double* face) {
-    const double kept = layers_.side_behind(k) ? 0.0 : 1.0;
-    kept_row(layers_.nx, kept, w_.row(j, k - 1), w_.row(j, k),
-             excess.e[2] + layers_.face_row(2, j, k), face);
+    if (layers_.side_behind(k)) {
+        std::fill_n(face, layers_.nx, 0.0);
+        return;
+    }
+    kept_row(layers_.nx, w_.row(j, k - 1), w_.row(j, k), excess.e[2] + layers_.face_row(2, j, k),
+             face);
 }
 
 ImageProducts BoxOperators::flux_image(double step, const ExcessFlux& excess, const double* d,

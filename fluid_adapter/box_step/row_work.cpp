@@ -157,12 +157,12 @@ void next_direction(int count, const double* __restrict z, double beta, double* 
 }
 
 TURBIDITE_ROW_WORK
-void kept_row(int count, double k, const double* __restrict w_low, const double* __restrict w_high,
+void kept_row(int count, const double* __restrict w_low, const double* __restrict w_high,
               const double* e, double* out) {
     for (int i = 0; i < count; ++i) {
-        // A face keeps its excess if one of its cells is outside grains.
+        // A face keeps part of its excess if one of its cells is outside grains.
         const double w = w_low[i] > w_high[i] ? w_low[i] : w_high[i];
-        out[i] = k * w * e[i];
+        out[i] = w * e[i];
     }
 }
 

@@ -109,9 +109,8 @@ void add_differences(int count, double x, const double* left, const double* here
 /// d[i] = z[i] + beta d[i]; d is not read if beta = 0
 void next_direction(int count, const double* z, double beta, double* d);
 
-/// out[i] = k max(w_low[i], w_high[i]) e[i]; out may be e
-void kept_row(int count, double k, const double* w_low, const double* w_high, const double* e,
-              double* out);
+/// out[i] = max(w_low[i], w_high[i]) e[i]; out may be e
+void kept_row(int count, const double* w_low, const double* w_high, const double* e, double* out);
 
 /// u[i] += share change[i]
 void add_row(int count, double share, const double* change, double* u);

@@ -62,9 +62,9 @@ class ResumeAfter : public FailingRun {
         return false;
     }
 
-    /// Whether the last command found a set to go on from, and did not begin afresh.
-    bool went_on() const {
-        return text(scratch.path() / "out").find(" goes on after window ") != std::string::npos;
+    /// Whether a command found a set to go on from, and did not begin afresh.
+    static bool went_on(const std::string& output) {
+        return output.find(" goes on after window ") != std::string::npos;
     }
 
     bool begun() const { return fs::exists(run_folder() / "case.yaml"); }
@@ -86,7 +86,7 @@ TEST_F(ResumeAfter, EverythingIsKilledAtRandomMoments) {
         const pid_t run = begin(std::string(TURBIDITE_PROGRAM) +
                                 (again ? " resume run" : " run small.yaml --force --out run"));
         const bool ended = ended_within(run, Milliseconds(moment(random)));
-        resumptions += went_on() ? 1 : 0;
+        resumptions += went_on(text(scratch.path() / "out")) ? 1 : 0;
         if (!ended) {
             --left;
             continue;
@@ -99,7 +99,7 @@ TEST_F(ResumeAfter, EverythingIsKilledAtRandomMoments) {
         const Answer answer = resume();
         EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
         EXPECT_EQ(lines_of_history("run"), whole_);
-        resumptions += answer.out.find(" goes on after window ") != std::string::npos ? 1 : 0;
+        resumptions += went_on(answer.out) ? 1 : 0;
     }
     EXPECT_GT(resumptions, 0);
     std::printf("%d kills, %d resumptions, %d runs completed in between\n", kills(), resumptions,
