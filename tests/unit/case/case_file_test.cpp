@@ -12,6 +12,7 @@
 #include "launcher/case/files/run_folder.hpp"
 #include "launcher/case/grains/population.hpp"
 #include "launcher/case/keys/keys.hpp"
+#include "tests/unit/case/aliases.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {
@@ -250,21 +251,8 @@ TEST_F(CaseFile, AnEmptyFileIsCalledEmpty) {
     }
 }
 
-std::string powers_of_ten(int count) {
-    std::string text = "a0: &a0 {k: 1}\n";
-    for (int n = 1; n <= count; ++n) {
-        const std::string name = "a" + std::to_string(n), of = "*a" + std::to_string(n - 1);
-        text += name + ": &" + name + " {";
-        for (char key = 'a'; key < 'k'; ++key) text += std::string(1, key) + ": " + of + ", ";
-        text += "}\n";
-    }
-    return text;
-}
-
-// Some hundred bytes that stand for a hundred thousand values, few enough that a reader without the
-// limit gets through them.
 TEST_F(CaseFile, AliasesOfAliasesAreBounded) {
-    const std::string text = powers_of_ten(5);
+    const std::string text = powers_of_ten();
     EXPECT_LT(text.size(), 600u);
     EXPECT_SAYS(refusal(text), "stands for more than 20000 values");
     EXPECT_SAYS(refusal(text), "box.yaml line ");

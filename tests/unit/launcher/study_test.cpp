@@ -7,6 +7,7 @@
 #include "launcher/study/other_defaults.hpp"
 #include "launcher/study/study_plan.hpp"
 #include "launcher/study/study_record.hpp"
+#include "tests/unit/case/aliases.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
 namespace turbidite {
@@ -175,13 +176,7 @@ TEST_F(StudyTest, FoldersOfRunsLieInTheFolderOfTheStudy) {
 }
 
 TEST_F(StudyTest, AliasesOfAliasesAreBounded) {
-    std::string text = "a0: &a0 {k: 1}\n";
-    for (int n = 1; n <= 5; ++n) {
-        const std::string name = "a" + std::to_string(n), of = "*a" + std::to_string(n - 1);
-        text += name + ": &" + name + " {";
-        for (char key = 'a'; key < 'k'; ++key) text += std::string(1, key) + ": " + of + ", ";
-        text += "}\n";
-    }
+    const std::string text = powers_of_ten();
     EXPECT_SAYS(refusal("case: column.yaml\nset: *a5\n" + text), "is not YAML");
     EXPECT_SAYS(refusal(text + "case: column.yaml\nset: *a5\n"), "more than 20000 values");
 }
