@@ -78,7 +78,7 @@ bool shape_is_round(const Settings& s) {
 }
 
 bool has_films(const Settings& s) {
-    return in_space(s) && s.flag("fluid.enabled") && s.text("contact.film") != "none";
+    return s.flag("fluid.enabled") && s.text("contact.film") != "none";
 }
 
 Ruling corners_do_not_roll(const Settings& s) {

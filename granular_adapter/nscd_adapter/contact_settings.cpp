@@ -102,11 +102,10 @@ void take_adhesion(const Settings& settings, nscd::EngineSettings& result) {
         settings.real("run.grain_weight") * settings.real("contact.adhesion_force");
 }
 
-/// Films of liquid, in space with a fluid; run.viscosity is nu.
+/// Films of liquid, with a fluid; run.viscosity is nu.
 void take_film(const Settings& settings, nscd::EngineSettings& result) {
     if (!settings.has("run.film_cutoff")) return;
     take(settings, "contact.film", result.law.film);
-    if (result.law.film == "none") return;
     nscd::LawSettings& laws = result.law_settings;
     // eta = rho_f nu
     laws.viscosity = settings.real("run.fluid_density") * settings.real("run.viscosity");

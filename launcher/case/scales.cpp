@@ -10,6 +10,7 @@
 
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
+#include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "launcher/case/slices.hpp"
 
 namespace turbidite {
@@ -127,18 +128,16 @@ void set_run_values(Settings& settings, const Scales& scales) {
     settings.set("run.size_x", size.at(0) * scales.diameter);
     settings.set("run.size_y", size.at(1) * scales.diameter);
     settings.set("run.size_z", (space ? size.at(2) : 1.0) * scales.diameter);
+    // From cells.
+    const auto in_cells = [&](const char* key) {
+        return settings.real(key) * scales.diameter / settings.real("fluid.cells_per_diameter");
+    };
     if (space) {
         settings.set("run.dimension", std::int64_t{3});
         settings.set("run.acceleration_z", acceleration.at(2) * scales.velocity / scales.time);
-        if (wet) {
-            const auto length = [&](const char* key) {
-                return settings.real(key) * scales.diameter /
-                       settings.real("fluid.cells_per_diameter");
-            };
-            settings.set("run.surface_shift", length("fluid.surface_shift"));
-            settings.set("run.film_cutoff", length("contact.film_cutoff"));
-        }
+        if (wet) settings.set("run.surface_shift", in_cells("fluid.surface_shift"));
     }
+    if (has_films(settings)) settings.set("run.film_cutoff", in_cells("contact.film_cutoff"));
     set_probes(settings, scales.diameter);
     set_slices(settings, scales.diameter);
     set_run_times(settings, scales.time);

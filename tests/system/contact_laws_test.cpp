@@ -92,5 +92,58 @@ TEST_F(LawsInRuns, ALawThatLacksAParameterIsRefusedByName) {
         EXPECT_SAYS(answer.err, said);
 }
 
+const char* const landing = R"(
+domain: {size: [4, 4], left: cyclic, right: cyclic}
+grains: {adapter: standalone-nscd, file: one.csv, density_ratio: 3}
+fluid: {reynolds: 20, cells_per_diameter: 8, splitting: marchuk-yanenko}
+contact: {film: lubrication, film_roughness: 0.01}
+scales: {kind: avalanche}
+time: {step: 0.01, end: 2}
+output: {interval: 0.02}
+checkpoint: {interval: 1}
+)";
+
+/// When the disc is within 0.002 D of the floor; the end of the run if it does not get there.
+double arrival(const Columns& run) {
+    std::size_t row = 0;
+    while (row + 1 < run.at("time").size() && run.at("mean_position_y")[row] > 0.502) ++row;
+    return run.at("time")[row];
+}
+
+class FilmsOfDiscs : public ShellTest {
+ protected:
+    void SetUp() override {
+        scratch.write("case.yaml", landing);
+        scratch.write("one.csv", "id,x,y,vy\n1,2,0.75,-0.5\n");
+    }
+
+    Columns play(const std::string& command, const std::string& folder) {
+        const Answer answer = shell(std::string(TURBIDITE_PROGRAM) + " " + command);
+        EXPECT_EQ(answer.code, 0) << command << answer.out << answer.err;
+        return columns_of(text(scratch.path() / folder / "history.csv"));
+    }
+};
+
+// A disc that falls on the floor slows down in its film, whose work is told, in both hosts; a run
+// in two parts has the bits of one.
+TEST_F(FilmsOfDiscs, SlowWhatLands) {
+    const std::string run = "run case.yaml --out ";
+    const Columns bare = play(run + "bare --set contact.film=none", "bare");
+    const Columns filmed = play(run + "filmed", "filmed");
+    const Columns in_yade = play(run + "yade --set grains.adapter=yade-nscd", "yade");
+    EXPECT_TRUE(std::isnan(bare.at("film_work").back())) << "empty without films";
+    double work = 0.0;
+    for (const double part : filmed.at("film_work")) work += std::isnan(part) ? 0.0 : part;
+    EXPECT_LT(work, -1e-3);
+    EXPECT_GT(arrival(filmed), arrival(bare) + 0.05);
+    EXPECT_LT(arrival(filmed), 2.0) << "it lands";
+    EXPECT_GT(filmed.at("contacts").back(), 0.0);
+    for (std::size_t row = 0; row < filmed.at("time").size(); ++row)
+        EXPECT_NEAR(filmed.at("mean_position_y")[row], in_yade.at("mean_position_y")[row], 1e-9);
+    play(run + "parts --set time.end=1", "parts");
+    const Columns parts = play("resume parts --set time.end=2", "parts");
+    EXPECT_EQ(parts.at("mean_position_y"), filmed.at("mean_position_y"));
+}
+
 }  // namespace
 }  // namespace turbidite

@@ -26,6 +26,12 @@ void check_solver(int dimension, const std::string& name, const ContactSolver& s
                                     "\" is of the plane only; in space use nlgs");
 }
 
+void check_films(const std::string& name, const ContactSolver& solver) {
+    if (!solver.solves_films())
+        throw std::invalid_argument("contact solver \"" + name +
+                                    "\" solves no films of liquid; with films use nlgs");
+}
+
 void check_ranks(const std::string& name, const ContactSolver& solver) {
     if (!solver.solves_on_ranks())
         throw std::invalid_argument("contact solver \"" + name +

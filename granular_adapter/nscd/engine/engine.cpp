@@ -61,6 +61,11 @@ Engine::Engine(const EngineSettings& settings, const ShapeTable& shapes, std::ve
       solver_(make_solver(settings.solver, settings.solvers)) {
     check_dimension(settings_.dimension, shapes);
     check_solver(settings_.dimension, settings_.solver, *solver_);
+    if (laws_.law().has(LawSlot::film)) {
+        check_films(settings_.solver, *solver_);
+        if (detection_.has_corners())
+            throw std::invalid_argument("films of liquid are between round bodies only");
+    }
     check_theta(settings_.theta, laws_.surfaces().largest_restitution());
     for (const Wall& wall : walls_) detection_.narrow_phase().check(wall);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -49,7 +50,11 @@ Film film_in(const FilmTerms& terms, double normal_bias, double step) {
     // Gaps over dt, in speeds (film.hpp): gamma, gamma_c, and the offset sigma - u_n. With the film
     // at sigma = v + gamma and u_n = v + b_n the offset is gamma - b_n.
     const double gap = terms.gap / step;
-    return {terms.coefficient, gap, terms.cutoff / step, gap - normal_bias};
+    // dt s^{-3/2} = dt^{-1/2} sigma^{-3/2}, where dt/s = 1/sigma
+    const double coefficient = terms.between == FilmBetween::spheres
+                                   ? terms.coefficient
+                                   : terms.coefficient / std::sqrt(step);
+    return {coefficient, gap, terms.cutoff / step, gap - normal_bias, terms.between};
 }
 
 /// The surface with another sliding friction, that of a wall without a material: static friction is

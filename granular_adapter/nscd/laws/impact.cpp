@@ -13,9 +13,14 @@ double speed_lost(const ContactSituation& s, const FilmTerms& film) {
     // cut-off the film takes nothing: the way through it begins there.
     const double closed = film.gap - std::max(s.gap, 0.0), from = std::min(film.gap, film.cutoff);
     if (from <= closed) return 0.0;
-    // W C (ln(g/g_closed) - (g - g_closed)/g_c)
+    if (film.between == FilmBetween::spheres)
+        // W C (ln(g/g_closed) - (g - g_closed)/g_c)
+        return s.mobility * film.coefficient *
+               (std::log(from / closed) - (from - closed) / film.cutoff);
+    // W C (2/sqrt(g_closed) - 2/sqrt(g) - (g - g_closed)/g_c^{3/2})
     return s.mobility * film.coefficient *
-           (std::log(from / closed) - (from - closed) / film.cutoff);
+           (2.0 / std::sqrt(closed) - 2.0 / std::sqrt(from) -
+            (from - closed) * Film::power(film.cutoff));
 }
 
 double approach_at_touch(const ContactSituation& s, const FilmTerms& film) {

@@ -11,7 +11,7 @@
 namespace turbidite::nscd {
 
 /// What a film takes of the speed between the gap and touching: the integral over the gap of
-///     m dv = -C (1/g_h - 1/g_c) dg,   1/m = W_nn
+///     m dv = -C (1/g_h - 1/g_c) dg,   between discs -C (g_h^{-3/2} - g_c^{-3/2}) dg,   1/m = W_nn
 /// Zero without a film [m/s].
 double speed_lost(const ContactSituation& situation, const FilmTerms& film);
 

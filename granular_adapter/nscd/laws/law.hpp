@@ -23,6 +23,7 @@
 #include "granular_adapter/nscd/laws/surface.hpp"
 #include "granular_adapter/nscd/names/contact_names.hpp"
 #include "granular_adapter/nscd/problem/contact_vector.hpp"
+#include "granular_adapter/nscd/problem/film.hpp"
 
 namespace turbidite::nscd {
 
@@ -65,11 +66,14 @@ inline bool touching(const ContactSituation& s) {
     return s.gap <= 1e-9 * s.radius_b;
 }
 
-/// A film of liquid; zero: none.
+/// A film of liquid (problem/film.hpp); zero: none.
 struct FilmTerms {
-    double coefficient = 0.0;  ///< C: the force is C (1/gap - 1/cutoff) u_n [N s]
-    double gap = 0.0;          ///< g_h at the start of the step, > 0 [m]
-    double cutoff = 0.0;       ///< g_c: the film acts below this gap [m]
+    /// C: the force is C (1/gap - 1/cutoff) u_n between spheres [N s], C (gap^{-3/2} -
+    /// cutoff^{-3/2}) u_n between discs, per depth [N s m^{1/2}]
+    double coefficient = 0.0;
+    double gap = 0.0;     ///< g_h at the start of the step, > 0 [m]
+    double cutoff = 0.0;  ///< g_c: the film acts below this gap [m]
+    FilmBetween between = FilmBetween::spheres;
 };
 
 struct LawTerms {
@@ -79,7 +83,7 @@ struct LawTerms {
     double attraction = 0.0;              ///< c, acts on the pair whatever the solver finds [N]
     double rolling = 0.0;                 ///< lever of the rolling resistance [m]
     double torsion = 0.0;                 ///< lever of the torsional resistance [m]
-    FilmTerms film;                       ///< of liquid, between round surfaces in space
+    FilmTerms film;                       ///< of liquid, between round surfaces
 };
 
 /// Result of the step for the contact.

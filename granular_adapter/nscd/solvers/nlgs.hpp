@@ -30,6 +30,7 @@ class Nlgs final : public ContactSolver {
                        const SolverSettings& settings) const override;
 
     bool solves_space() const override { return true; }
+    bool solves_films() const override { return true; }
     bool solves_on_ranks() const override { return true; }
 
  private:

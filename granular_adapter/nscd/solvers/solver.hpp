@@ -46,6 +46,9 @@ class ContactSolver {
     /// Whether it solves problems of space besides those of the plane.
     virtual bool solves_space() const { return false; }
 
+    /// Whether it solves problems with films of liquid.
+    virtual bool solves_films() const { return false; }
+
     /// Whether it solves problems that several ranks share.
     virtual bool solves_on_ranks() const { return false; }
 };

@@ -20,6 +20,29 @@ Ruling adapter_has_films(const Settings& s) {
                     adapters_that([](const GrainsAdapter& a) { return a.films; }))};
 }
 
+Ruling corners_have_no_films(const Settings& s) {
+    if (!has_films(s) || shape_is_round(s)) return std::nullopt;
+    return Objection{
+        fmt::format("Films of liquid are between round surfaces, but grains.shape = {}.",
+                    s.text("grains.shape")),
+        "Use none, or discs or spheres."};
+}
+
+Ruling solver_has_films(const Settings& s) {
+    if (!has_films(s) || is(s, "contact.solver", "nlgs")) return std::nullopt;
+    return Objection{fmt::format("{} solves contacts without films, but contact.film = {}.",
+                                 s.text("contact.solver"), s.text("contact.film")),
+                     "Use nlgs, or contact.film: none."};
+}
+
+Ruling files_know_films(const Settings& s) {
+    if (!has_films(s)) return std::nullopt;
+    return Objection{
+        fmt::format("The files of Siconos do not support films, but contact.film = {}.",
+                    s.text("contact.film")),
+        "Remove one of the two keys."};
+}
+
 /// Between surfaces that touch there is a film as thick as they are rough.
 Ruling rough_film_is_below_the_cutoff(const Settings& s) {
     if (!has_films(s)) return std::nullopt;
@@ -42,40 +65,42 @@ std::string without_films(const Settings& s) {
 KeyGroup film_keys() {
     return {
         .keys =
-            {of_space({.name = "contact.film",
-                       .type = KeyType::choice,
-                       .fallback = "none",
-                       .choices = offered(nscd::law_choices(nscd::LawSlot::film)),
-                       .help = "forces of the liquid between grains, and grains and walls, that "
-                               "the cells do not resolve",
-                       .idle = without_fluid}),
-             of_space({.name = "contact.film_cutoff",
-                       .type = KeyType::real,
-                       .unit = "cells",
-                       .fallback = "1.2",
-                       .range = {.lower = 0.0, .upper = 4.0, .lower_open = true},
-                       .help =
-                           "gap from which on the cells resolve the force of a film; measured with "
-                           "fluid.surface_shift: 0.3, without a shift it is 2",
-                       .allowed = "Above 0, and at most 4 cells.",
-                       .remedy = "Leave it out: bench/film.py measures it.",
-                       .idle = without_films}),
-             of_space({.name = "contact.film_roughness",
-                       .type = KeyType::real,
-                       .unit = "D",
-                       .fallback = "0.001",
-                       .range = {.lower = 0.0, .upper = 0.1, .lower_open = true},
-                       .help = "thickness of the film between surfaces that touch: the height "
-                               "of their asperities",
-                       .allowed = "Above 0, since smooth spheres would never touch, and at most "
-                                  "0.1 D.",
-                       .remedy = "Use 0.001; glass beads have 0.0001 to 0.001.",
-                       .idle = without_films})},
+            {{.name = "contact.film",
+              .type = KeyType::choice,
+              .fallback = "none",
+              .choices = offered(nscd::law_choices(nscd::LawSlot::film)),
+              .help = "forces of the liquid between grains, and grains and walls, that "
+                      "the cells do not resolve",
+              .idle = without_fluid},
+             {.name = "contact.film_cutoff",
+              .type = KeyType::real,
+              .unit = "cells",
+              .fallback = "1.2",
+              .range = {.lower = 0.0, .upper = 4.0, .lower_open = true},
+              .help =
+                  "gap from which on the cells resolve the force of a film; in space measured with "
+                  "fluid.surface_shift: 0.3, without a shift it is 2",
+              .allowed = "Above 0, and at most 4 cells.",
+              .remedy = "Leave it out: bench/film.py measures it.",
+              .idle = without_films},
+             {.name = "contact.film_roughness",
+              .type = KeyType::real,
+              .unit = "D",
+              .fallback = "0.001",
+              .range = {.lower = 0.0, .upper = 0.1, .lower_open = true},
+              .help = "thickness of the film between surfaces that touch: the height "
+                      "of their asperities",
+              .allowed = "Above 0, since smooth surfaces would never touch, and at most "
+                         "0.1 D.",
+              .remedy = "Use 0.001; glass beads have 0.0001 to 0.001.",
+              .idle = without_films}},
         .rules = {
-            {"contact.film", {"grains.adapter", "dimension", "fluid.enabled"}, adapter_has_films},
+            {"contact.film", {"grains.adapter", "fluid.enabled"}, adapter_has_films},
+            {"contact.film", {"grains.shape", "fluid.enabled"}, corners_have_no_films},
+            {"contact.solver", {"contact.film", "fluid.enabled"}, solver_has_films},
+            {"contact.dump_interval", {"contact.film", "fluid.enabled"}, files_know_films},
             {"contact.film_roughness",
-             {"contact.film", "contact.film_cutoff", "dimension", "fluid.enabled",
-              "fluid.cells_per_diameter"},
+             {"contact.film", "contact.film_cutoff", "fluid.enabled", "fluid.cells_per_diameter"},
              rough_film_is_below_the_cutoff}}};
 }
 

@@ -75,14 +75,6 @@ Ruling files_know_torsion(const Settings& s) {
         "Remove one of the two keys."};
 }
 
-Ruling files_know_films(const Settings& s) {
-    if (!is_wet_space(s) || s.text("contact.film") == "none") return std::nullopt;
-    return Objection{
-        fmt::format("The files of Siconos do not support films, but contact.film = {}.",
-                    s.text("contact.film")),
-        "Remove one of the two keys."};
-}
-
 }  // namespace
 
 KeyGroup space_keys() {
@@ -90,7 +82,6 @@ KeyGroup space_keys() {
         {"grains.shape", {"dimension"}, shape_is_of_the_dimension},
         {"contact.solver", {"dimension"}, solver_works_in_space},
         {"contact.dump_interval", {"dimension", "contact.torsion_friction"}, files_know_torsion},
-        {"contact.dump_interval", {"contact.film", "dimension", "fluid.enabled"}, files_know_films},
         {"fluid.points", {"dimension", "fluid.enabled"}, points_are_interior},
         {pressure_solver, {"dimension", "fluid.enabled"}, is_direct<pressure_solver>},
         {viscous_solver, {"dimension", "fluid.enabled"}, is_direct<viscous_solver>},

@@ -183,7 +183,7 @@ TEST_F(SpaceCase, FilmsNeedAFluidSpheresAndTheContactEngine) {
                 "Films act below contact.film_cutoff = 0.5 cells = 0.0625 D");
     EXPECT_SAYS(refusal("", with({"contact.film_cutoff=5"})), "at most 4 cells");
     EXPECT_SAYS(refusal("", with({"contact.film_roughness=0"})),
-                "smooth spheres would never touch");
+                "smooth surfaces would never touch");
     EXPECT_SAYS(refusal("", with({"contact.film=stokes"})), "lubrication");
     // On both sides of a box of up to 2 D + 2 1.2/8 D.
     EXPECT_SAYS(refusal("", with({"domain.size=[12, 10, 2.25]", "grains.count=4"})),
@@ -191,9 +191,23 @@ TEST_F(SpaceCase, FilmsNeedAFluidSpheresAndTheContactEngine) {
     EXPECT_EQ(refusal("", with({"domain.size=[12, 10, 2.375]", "grains.count=4"})), "");
 }
 
-TEST_F(PlaneCase, FilmsAreOfSpace) {
-    EXPECT_SAYS(refusal("", {"contact.film=lubrication"}),
-                "This key exists with dimension: 3 only.");
+TEST_F(PlaneCase, FilmsAreBetweenDiscsAndSolvedByNlgs) {
+    const auto with = [](std::vector<std::string> more) {
+        more.insert(more.begin(), {"fluid.enabled=true", "fluid.reynolds=10",
+                                   "fluid.cells_per_diameter=8", "contact.film=lubrication"});
+        return more;
+    };
+    EXPECT_EQ(refusal("", with({})), "");
+    EXPECT_DOUBLE_EQ(load("", with({})).settings.real("run.film_cutoff"), 1.2 / 8.0);
+    EXPECT_FALSE(load("", with({"contact.film=none"})).settings.has("run.film_cutoff"));
+    EXPECT_FALSE(load("", with({"fluid.enabled=false"})).settings.has("run.film_cutoff"));
+    EXPECT_SAYS(refusal("", with({"grains.shape=triangle"})),
+                "Films of liquid are between round surfaces, but grains.shape = triangle.");
+    EXPECT_SAYS(refusal("", with({"contact.solver=central-path", "contact.iterations=1000000"})),
+                "central-path solves contacts without films");
+    EXPECT_SAYS(refusal("", with({"contact.dump_interval=1"})), "do not support films");
+    EXPECT_SAYS(refusal("", with({"grains.adapter=yade-md", "coupling.scheme=split"})),
+                "yade-md has no films of liquid between grains");
 }
 
 TEST_F(SpaceCase, SidesOfAFluidSlideAndLetItIn) {

@@ -109,6 +109,18 @@ TEST(PlaneRanks, HaveTheSameBitsWithEveryLaw) {
     EXPECT_GT(rolling, 5);
 }
 
+TEST(PlaneRanks, HaveTheSameBitsWithFilms) {
+    Scene scene = slide(50, 4);
+    scene.settings.law.film = "lubrication";
+    scene.settings.law_settings.viscosity = 0.003;
+    scene.settings.law_settings.film_cutoff = 0.1;
+    scene.settings.law_settings.film_roughness = 0.001;
+    const Played two = expect_same_on_ranks(scene, 1000, 5);
+    const auto pulling = std::count_if(two.impulses.begin(), two.impulses.end(),
+                                       [](const auto& x) { return x.second.first.n < 0.0; });
+    EXPECT_GT(pulling, 20) << "films that part";
+}
+
 /// Triangles that tumble over the floor.
 Scene tumble() {
     Scene scene;

@@ -71,8 +71,10 @@ Delassus::Delassus(const ContactProblem& problem)
       diagonal_(std::all_of(bodies_.begin(), bodies_.end(),
                             [](const BodyMobility& body) { return body.isotropic(); })) {
     blocks_.reserve(problem.contacts.size());
-    for (const Contact& contact : problem.contacts) {
-        const Block w = block_of(bodies_, contact);
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+        const Contact& contact = problem.contacts[k];
+        Block w = block_of(bodies_, contact);
+        w.film = film_of(problem, k);
         diagonal_ = diagonal_ && w.nt == 0.0 && w.nr == 0.0 &&
                     is_along_normal(contact, contact.arm_b) &&
                     is_along_normal(contact, contact.arm_a);
@@ -82,6 +84,7 @@ Delassus::Delassus(const ContactProblem& problem)
     // Which rows the sweeps use must not depend on which contacts this rank has.
     diagonal_ = !on_any_rank(problem, !diagonal_);
     rolling_ = on_any_rank(problem, rolling_);
+    filmed_ = on_any_rank(problem, !problem.films.empty());
 }
 
 Impulses Delassus::apply(const Impulses& r) const {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "granular_adapter/nscd/problem/contact_kind.hpp"
-#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
+#include "granular_adapter/nscd/problem/plane/filmed_contact.hpp"
 
 namespace turbidite::nscd {
 
@@ -39,11 +39,14 @@ class Delassus {
     /// moment.
     bool rolling() const { return rolling_; }
 
+    /// True if some contact of any rank has a film.
+    bool filmed() const { return filmed_; }
+
  private:
     const ContactProblem& problem_;
     const std::vector<PlanarTensor>& bodies_;
     std::vector<Block> blocks_;
-    bool diagonal_ = true, rolling_ = false;
+    bool diagonal_ = true, rolling_ = false, filmed_ = false;
 };
 
 inline Delassus operator_of(const ContactProblem& problem, const std::vector<PlanarTensor>&) {
@@ -61,22 +64,34 @@ inline MapTerms rolling_terms(const Contact& contact, const Block& w, const Cont
     return {f.n * f.n + f.t * f.t + f.roll * f.roll, r.n * r.n + r.t * r.t + moment * moment};
 }
 
-inline MapTerms map_terms(const Contact& contact, const Block& w, const ContactVector& r,
-                          const ContactVector& u) {
-    if (w.rr > 0.0) return rolling_terms(contact, w, r, u);
-    const Plane f = natural_map({r.n, r.t}, {u.n, u.t}, contact.friction, 1.0 / w.nn);
-    return {f[0] * f[0] + f[1] * f[1], r.n * r.n + r.t * r.t};
-}
-
-inline ContactVector solution(const Contact& contact, const Block& w, const ContactVector& b) {
-    return w.rr > 0.0 ? solve_rolling_contact(w, b, contact.friction, contact.rolling)
-                      : without_rolling(w, b, contact.friction);
-}
-
 inline ContactVector product(const Block& w, const ContactVector& r) {
     return in_plane(w.nn * r.n + w.nt * r.t + w.nr * r.roll,
                     w.nt * r.n + w.tt * r.t + w.tr * r.roll,
                     w.nr * r.n + w.tr * r.t + w.rr * r.roll);
+}
+
+inline ContactVector solution(const Contact& contact, const Block& w, const ContactVector& b) {
+    if (w.film) return solve_filmed_contact(w, b, contact.friction, contact.rolling);
+    return without_film(w, b, contact.friction, contact.rolling);
+}
+
+/// Film and contact are no cone, so the measure is what one exact update of the contact alone would
+/// change, |r - r*|^2, the moment over rolling_length().
+inline MapTerms filmed_terms(const Contact& contact, const Block& w, const ContactVector& r,
+                             const ContactVector& u) {
+    const ContactVector next = solution(contact, w, u - product(w, r));
+    const double shorter = w.rr > 0.0 ? 1.0 / rolling_length(w) : 0.0;
+    const double fn = r.n - next.n, ft = r.t - next.t, fm = shorter * (r.roll - next.roll);
+    const double moment = shorter * r.roll;
+    return {fn * fn + ft * ft + fm * fm, r.n * r.n + r.t * r.t + moment * moment};
+}
+
+inline MapTerms map_terms(const Contact& contact, const Block& w, const ContactVector& r,
+                          const ContactVector& u) {
+    if (w.film) return filmed_terms(contact, w, r, u);
+    if (w.rr > 0.0) return rolling_terms(contact, w, r, u);
+    const Plane f = natural_map({r.n, r.t}, {u.n, u.t}, contact.friction, 1.0 / w.nn);
+    return {f[0] * f[0] + f[1] * f[1], r.n * r.n + r.t * r.t};
 }
 
 inline double squared(const Block& w, const ContactVector& u) {

@@ -22,6 +22,8 @@
 #include <array>
 #include <cmath>
 
+#include "granular_adapter/nscd/problem/film.hpp"
+
 namespace turbidite::nscd {
 
 /// Diagonal block of W [1/kg]. The third row is for moments and spins (rolling_contact.hpp), and
@@ -33,6 +35,7 @@ struct Block {
     double nr = 0.0;
     double tr = 0.0;
     double rr = 0.0;
+    const Film* film = nullptr;  ///< none: the contact has no film (filmed_contact.hpp)
 };
 
 /// (n, t) of an impulse or a velocity.

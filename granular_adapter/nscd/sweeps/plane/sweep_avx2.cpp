@@ -4,7 +4,7 @@
 // before stays portable, since its inline functions may be used in any other part of a program.
 #include <stdexcept>
 
-#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
+#include "granular_adapter/nscd/problem/plane/filmed_contact.hpp"
 #include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
 
 #ifdef TURBIDITE_AVX2
@@ -48,6 +48,6 @@ template Sweeps<RollingDiscRows<4>> avx2_sweeps();
 template Sweeps<RollingDiscRows<1>> avx2_sweeps();
 template Sweeps<GeneralRows<4>> avx2_sweeps();
 template Sweeps<GeneralRows<1>> avx2_sweeps();
-template Sweeps<GeneralRollingRows<1>> avx2_sweeps();
+template Sweeps<AnyRows<1>> avx2_sweeps();
 
 }  // namespace turbidite::nscd

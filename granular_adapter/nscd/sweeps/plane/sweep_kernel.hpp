@@ -234,25 +234,28 @@ TURBIDITE_INLINE void update(GeneralRows<width>& row, PlaneBody* bodies, PassSum
 }
 
 template <bool measure>
-TURBIDITE_INLINE void update(GeneralRollingRows<1>& row, PlaneBody* bodies, PassSums<1>& sums) {
-    Met<GeneralRollingRows<1>> met(row, bodies);
+TURBIDITE_INLINE void update(AnyRows<1>& row, PlaneBody* bodies, PassSums<1>& sums) {
+    Met<AnyRows<1>> met(row, bodies);
     const ContactVector r = in_plane(met.rn, met.rt, row.roll);
     const ContactVector u = in_plane(
         normal_velocity(row, met), general_tangential_velocity(row, met), met.b.spin - met.a.spin);
-    if constexpr (measure) {
-        const ContactVector f =
-            rolling_natural_map(r, u, met.mu, row.rolling, load(row.inverse_nn), row.length);
-        const double moment = row.roll / row.length;
-        sums.error.v[0] += f.n * f.n + f.t * f.t + f.roll * f.roll;
-        sums.size.v[0] += r.n * r.n + r.t * r.t + moment * moment;
-    }
     const Block& w = row.w;
     const ContactVector b = in_plane(u.n - w.nn * r.n - w.nt * r.t - w.nr * r.roll,
                                      u.t - w.nt * r.n - w.tt * r.t - w.tr * r.roll,
                                      u.roll - w.nr * r.n - w.tr * r.t - w.rr * r.roll);
-    const ContactVector next = row.rolling > 0.0 ? solve_rolling_contact(w, b, met.mu, row.rolling)
-                                                 : without_rolling(w, b, met.mu);
-    if constexpr (measure) count_loaded(sums, next.n);
+    const ContactVector next = w.film ? solve_filmed_contact(w, b, met.mu, row.rolling)
+                                      : without_film(w, b, met.mu, row.rolling);
+    if constexpr (measure) {
+        // The natural map; with a film, which is no cone, the change of the contact alone.
+        const ContactVector f =
+            w.film
+                ? in_plane(r.n - next.n, r.t - next.t, (r.roll - next.roll) / row.length)
+                : rolling_natural_map(r, u, met.mu, row.rolling, load(row.inverse_nn), row.length);
+        const double moment = row.roll / row.length;
+        sums.error.v[0] += f.n * f.n + f.t * f.t + f.roll * f.roll;
+        sums.size.v[0] += r.n * r.n + r.t * r.t + moment * moment;
+        count_loaded(sums, next.n);
+    }
     general_push(row, met, next.n - r.n, next.t - r.t);
     const double dm = next.roll - r.roll;
     met.a.x -= row.a_rx * dm, met.a.y -= row.a_ry * dm, met.a.spin -= row.a_rs * dm;
@@ -261,10 +264,12 @@ TURBIDITE_INLINE void update(GeneralRollingRows<1>& row, PlaneBody* bodies, Pass
     met.keep(row, next.n, next.t, bodies);
 }
 
-/// Whether some contact of the group has an impulse or closes.
+/// Whether some contact of the group has an impulse, closes, or has a film that acts.
 template <class Rows>
 TURBIDITE_INLINE bool needs_update(const Rows& row, const PlaneBody* bodies) {
     const Met<Rows> met(row, bodies);
-    const Real<Rows::width> zero{};
-    return any(larger(met.rn, Real<Rows::width>(-smaller(normal_velocity(row, met), zero))));
+    const Real<Rows::width> un = normal_velocity(row, met), zero{};
+    if constexpr (requires { row.w.film; })
+        if (row.w.film && (met.rn != 0.0 || row.w.film->acts(un))) return true;
+    return any(larger(met.rn, Real<Rows::width>(-smaller(un, zero))));
 }

@@ -92,7 +92,7 @@ void fill(GeneralRows<lanes>& rows, int lane, const PackedContact& packed) {
     rows.inverse_backward.v[lane] = 1.0 / (w.nn - contact.friction * w.nt);
 }
 
-void fill(GeneralRollingRows<1>& rows, int lane, const PackedContact& packed) {
+void fill(AnyRows<1>& rows, int lane, const PackedContact& packed) {
     fill(static_cast<GeneralRows<1>&>(rows), lane, packed);
     const PlanarVector a = answer(packed.a, 0.0, 0.0, 1.0), b = answer(packed.b, 0.0, 0.0, 1.0);
     rows.a_rx = a.x, rows.a_ry = a.y, rows.a_rs = a.spin;

@@ -20,7 +20,7 @@ template <int lanes>
 void fill(RollingDiscRows<lanes>& rows, int lane, const PackedContact& packed);
 template <int lanes>
 void fill(GeneralRows<lanes>& rows, int lane, const PackedContact& packed);
-void fill(GeneralRollingRows<1>& rows, int lane, const PackedContact& packed);
+void fill(AnyRows<1>& rows, int lane, const PackedContact& packed);
 
 template <class Rows>
 concept PlaneRows = std::derived_from<Rows, RowBase<Rows::width>>;
@@ -60,11 +60,11 @@ inline void set_rates(PlaneBody& to, const double* from) {
 template <class Use>
 auto with_rows(const Delassus& w, const Use& use) {
     using std::type_identity;
+    if (w.filmed()) return use(type_identity<AnyRows<1>>());
     if (w.diagonal())
         return w.rolling() ? use(type_identity<RollingDiscRows<4>>())
                            : use(type_identity<DiscRows<4>>());
-    return w.rolling() ? use(type_identity<GeneralRollingRows<1>>())
-                       : use(type_identity<GeneralRows<4>>());
+    return w.rolling() ? use(type_identity<AnyRows<1>>()) : use(type_identity<GeneralRows<4>>());
 }
 
 }  // namespace turbidite::nscd

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The sweeps for any processor.
-#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
+#include "granular_adapter/nscd/problem/plane/filmed_contact.hpp"
 #include "granular_adapter/nscd/sweeps/plane/sweep_rows.hpp"
 
 #if defined(__GNUC__) && !defined(__clang__)
@@ -28,6 +28,6 @@ template Sweeps<RollingDiscRows<4>> portable_sweeps();
 template Sweeps<RollingDiscRows<1>> portable_sweeps();
 template Sweeps<GeneralRows<4>> portable_sweeps();
 template Sweeps<GeneralRows<1>> portable_sweeps();
-template Sweeps<GeneralRollingRows<1>> portable_sweeps();
+template Sweeps<AnyRows<1>> portable_sweeps();
 
 }  // namespace turbidite::nscd

@@ -70,9 +70,9 @@ struct alignas(64) GeneralRows : RowBase<lanes> {
     Values inverse_forward, inverse_backward;  ///< 1/(W_nn + s mu W_nt), s = 1, -1
 };
 
-/// The same with rolling resistance; rare, hence one contact at a time.
+/// The same with rolling resistance and films, whose root takes iterations; one contact at a time.
 template <int lanes>
-struct GeneralRollingRows : GeneralRows<lanes> {
+struct AnyRows : GeneralRows<lanes> {
     static_assert(lanes == 1);
     double a_rx = 0.0, a_ry = 0.0, a_rs = 0.0;  ///< M^-1 (0, 0, 1)
     double b_rx = 0.0, b_ry = 0.0, b_rs = 0.0;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// The exact solution for one contact in the plane, whatever acts there: friction, rolling
+// resistance, a film of liquid (film.hpp).
+//
+// A film alone pushes along n only. Where it cannot keep the surfaces apart, u_n = 0 and its
+// impulse is that of the closed gap, c: what is left is a contact without a film at b + W (c, 0,
+// 0), which friction and moments belong to. It closes, b_n + W_nn c < 0, exactly where the film
+// alone would let the surfaces overlap.
+#pragma once
+
+#include "granular_adapter/nscd/problem/plane/rolling_contact.hpp"
+
+namespace turbidite::nscd {
+
+inline ContactVector without_film(const Block& w, const ContactVector& b, double friction,
+                                  double rolling) {
+    return w.rr > 0.0 && rolling > 0.0 ? solve_rolling_contact(w, b, friction, rolling)
+                                       : without_rolling(w, b, friction);
+}
+
+/// r with u = W r + b that solves the contact; requires a film.
+inline ContactVector solve_filmed_contact(const Block& w, const ContactVector& b, double friction,
+                                          double rolling) {
+    const double closed = w.film->closed();
+    const ContactVector left = b + in_plane(closed * w.nn, closed * w.nt, closed * w.nr);
+    if (left.n >= 0.0) return in_plane(solve_film(*w.film, w.nn, b.n).impulse, 0.0);
+    ContactVector r = without_film(w, left, friction, rolling);
+    r.n += closed;
+    return r;
+}
+
+}  // namespace turbidite::nscd
