@@ -26,14 +26,13 @@ FluidDomain domain_in_space(const Settings& settings) {
     throw Failure(ExitCode::bad_input, "fluid.program = box is for dimension: 3");
 }
 
-/// Numbers i + nx (k + nz j) of the layers that `simple (1 n 1)` gives this rank.
-std::vector<int> cells_of_rank(const CellGrid& grid, const RankGroup& ranks) {
-    const auto first_of = [&](int rank) {
-        return (rank * grid.counts[1] + ranks.size() - 1) / ranks.size();
-    };
+/// Numbers i + nx (k + nz j) of the layers of this rank.
+std::vector<int> cells_of_rank(const Settings& settings, const CellGrid& grid,
+                               const RankGroup& ranks) {
+    const std::vector<int> first = first_layers(settings, grid.counts[1], ranks.size());
     const int layer = grid.counts[0] * grid.counts[2];
-    std::vector<int> cells((first_of(ranks.rank() + 1) - first_of(ranks.rank())) * layer);
-    std::iota(cells.begin(), cells.end(), first_of(ranks.rank()) * layer);
+    std::vector<int> cells((first[ranks.rank() + 1] - first[ranks.rank()]) * layer);
+    std::iota(cells.begin(), cells.end(), first[ranks.rank()] * layer);
     return cells;
 }
 
@@ -95,7 +94,8 @@ BoxStore::BoxStore(const Settings& settings, const RankGroup& ranks,
       run_(run_values(settings)),
       ranks_(ranks),
       grid_(grid_of(domain_, 1.0)),
-      rows_(ranks, grid_.counts[0] * grid_.counts[2], grid_.counts[1], cells_of_rank(grid_, ranks)),
+      rows_(ranks, grid_.counts[0] * grid_.counts[2], grid_.counts[1],
+            cells_of_rank(settings, grid_, ranks)),
       field_(grid_, run_.fluid_density, ranks, rows_.rows_of_rank()[ranks.rank()]),
       neighbours_(box_rows()),
       probes_(settings),

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/run_values.hpp"
@@ -44,6 +46,24 @@ void stretch_rows(const Settings& settings, const RunValues& run, FluidDomain& d
 }
 
 }  // namespace
+
+std::vector<int> first_layers(const Settings& settings, int layers, int ranks) {
+    std::vector<int> first;
+    if (!settings.has("run.fluid_layers")) {
+        for (int rank = 0; rank <= ranks; ++rank)
+            first.push_back((rank * layers + ranks - 1) / ranks);
+        return first;
+    }
+    first.push_back(0);
+    std::istringstream counts(settings.text("run.fluid_layers"));
+    for (int count = 0; counts >> count;) first.push_back(first.back() + count);
+    if (std::ssize(first) != ranks + 1 || first.back() != layers ||
+        !std::is_sorted(first.begin(), first.end()))
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("run.fluid_layers = {} are not the {} layers of {} ranks",
+                                  settings.text("run.fluid_layers"), layers, ranks));
+    return first;
+}
 
 FluidDomain fluid_domain(const Settings& settings) {
     FluidDomain domain;

@@ -28,6 +28,11 @@ inline bool stretched(const FluidDomain& domain) {
     return !domain.row_edges.empty();
 }
 
+/// First layer of cells of every rank, from the bottom up, and the number of layers behind the
+/// last: run.fluid_layers, without them as even as they can be. Throws Failure (bad_input) unless
+/// they are all layers.
+std::vector<int> first_layers(const Settings& settings, int layers, int ranks);
+
 /// Throws Failure (bad_input) that names the key, and as side_types.
 FluidDomain fluid_domain(const Settings& settings);
 

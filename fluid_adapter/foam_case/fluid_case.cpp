@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
@@ -162,41 +163,41 @@ std::string block_mesh(const FluidDomain& domain) {
         patches);
 }
 
-/// The rank of every cell, in blockMesh's order: complete rows, nearly as many for each rank.
-std::string rank_of_cells(const FluidDomain& domain, std::int64_t ranks) {
+/// The rank of every cell, in blockMesh's order: complete rows.
+std::string rank_of_cells(const Settings& settings, const FluidDomain& domain) {
+    const std::vector<int> first =
+        first_layers(settings, domain.cells[1], static_cast<int>(settings.integer("fluid.ranks")));
     std::string text = fmt::format("{}\n(\n", domain.cells[0] * domain.cells[1] * domain.cells[2]);
     for (std::int64_t row = 0; row < domain.cells[1] * domain.cells[2]; ++row) {
-        const std::int64_t j = row % domain.cells[1];
-        const std::string rank = fmt::format("{} ", j * ranks / domain.cells[1]);
+        const auto above = std::upper_bound(first.begin(), first.end(), row % domain.cells[1]);
+        const std::string rank = fmt::format("{} ", above - first.begin() - 1);
         for (int i = 0; i < domain.cells[0]; ++i) text += rank;
         text += '\n';
     }
     return text + ")\n";
 }
 
-/// Whether `simple`, which gives all ranks as many cells, would split rows between two ranks.
-bool splits_rows(const Settings& settings, const FluidDomain& domain) {
-    return settings.text("fluid.decomposition") == "rows" &&
-           domain.cells[1] % settings.integer("fluid.ranks") != 0;
+/// Whether ranks have whole rows, each as many as the launcher says.
+bool is_cut_by_rows(const Settings& settings) {
+    return settings.text("fluid.decomposition") == "rows" && settings.integer("fluid.ranks") > 1;
 }
 
-/// `simple` sorts the cells by coordinates rotated by `delta`. The default is so large that rows of
-/// more than a thousand cells would be split; it must only be non-zero.
+/// `simple` sorts the cells by coordinates rotated by `delta`. The default is so large that columns
+/// of more than a thousand cells would be split; it must only be non-zero.
 std::string decomposition(const Settings& settings, const FluidDomain& domain) {
     const std::int64_t ranks = settings.integer("fluid.ranks");
     const std::string& kind = settings.text("fluid.decomposition");
     if (kind != "rows" && kind != "columns")
         throw Failure(ExitCode::bad_input,
                       "fluid.decomposition = \"" + kind + "\"; allowed are rows, columns");
-    const bool rows = kind == "rows";
-    if (splits_rows(settings, domain))
+    if (is_cut_by_rows(settings))
         return fmt::format(
             "numberOfSubdomains {};\nmethod manual;\ncoeffs {{ dataFile \"cellDecomposition\"; "
             "}}\n",
             ranks);
     return fmt::format(
-        "numberOfSubdomains {};\nmethod simple;\ncoeffs {{ n ({} {} 1); delta 1e-06; }}\n", ranks,
-        rows ? 1 : ranks, rows ? ranks : 1);
+        "numberOfSubdomains {};\nmethod simple;\ncoeffs {{ n ({} 1 1); delta 1e-06; }}\n", ranks,
+        ranks);
 }
 
 /// Conditions on the sides: `closed(side)` on walls and inflows, `at_free` on free sides.
@@ -248,9 +249,9 @@ std::string transport_properties(const RunValues& run) {
 void write_decomposition(const Settings& settings, const std::filesystem::path& directory) {
     const FluidDomain domain = fluid_domain(settings);
     write(directory, "system", "decomposeParDict", "dictionary", decomposition(settings, domain));
-    if (splits_rows(settings, domain))
+    if (is_cut_by_rows(settings))
         write(directory, "constant", "cellDecomposition", "labelList",
-              rank_of_cells(domain, settings.integer("fluid.ranks")));
+              rank_of_cells(settings, domain));
 }
 
 void extend_fluid_case(const Settings& settings, const std::filesystem::path& directory) {

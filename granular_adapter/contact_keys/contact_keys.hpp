@@ -25,6 +25,9 @@ bool shape_is_round(const Settings& settings);
 /// What is said of grains with corners; nothing where no key gives a rolling resistance.
 Ruling corners_do_not_roll(const Settings& settings);
 
+/// The same; nothing without films of liquid.
+Ruling corners_have_no_films(const Settings& settings);
+
 /// Whether contacts have films of liquid, of keys that only a case file has.
 bool has_films(const Settings& settings);
 

@@ -81,6 +81,14 @@ bool has_films(const Settings& s) {
     return s.flag("fluid.enabled") && s.text("contact.film") != "none";
 }
 
+Ruling corners_have_no_films(const Settings& s) {
+    if (!has_films(s)) return std::nullopt;
+    return Objection{fmt::format("Films of liquid are between round grains only, but contact.film "
+                                 "= {}.",
+                                 s.text("contact.film")),
+                     "Use none, or round grains."};
+}
+
 Ruling corners_do_not_roll(const Settings& s) {
     const std::string key = positive_coefficient(s, "rolling_friction");
     if (key.empty()) return std::nullopt;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/case/run_settings.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <string>
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/rigid/rotation.hpp"
+#include "launcher/case/fluid_cut.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/case/grains/materials.hpp"
 #include "launcher/case/grains/soft_contact.hpp"
@@ -62,6 +66,13 @@ void set_soft_contact(Settings& settings, const Packing& grains) {
     settings.set("run.md_substeps", contact.substeps);
 }
 
+/// How many layers of cells each rank of the fluid has.
+void set_fluid_layers(Settings& settings, const Packing& grains) {
+    const std::vector<int> layers = cut_by_work(settings, grains);
+    if (!layers.empty())
+        settings.set("run.fluid_layers", fmt::format("{}", fmt::join(layers, " ")));
+}
+
 }  // namespace
 
 void choose_scheme(Settings& settings) {
@@ -84,6 +95,7 @@ void set_run_settings(Settings& settings, const Packing& grains,
     set_materials(settings);
     set_side_material(settings);
     set_soft_contact(settings, grains);
+    set_fluid_layers(settings, grains);
 }
 
 std::vector<GrainState> grain_states(const Packing& grains, const Settings& settings,

@@ -53,7 +53,8 @@ CommandAction declare_resume(CLI::App& app) {
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
     app.add_flag("--dry-run", options->dry_run,
-                 "prepare everything and print the mpirun line instead of starting it");
+                 "prepare everything and print the mpirun line instead of starting it; the folder "
+                 "keeps the keys of --set, and its run is not done until it has gone on");
     return [options] { return resume(*options); };
 }
 

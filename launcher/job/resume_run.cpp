@@ -80,8 +80,8 @@ bool may_change(const std::string& key) {
     for (const std::string& allowed : keys_that_may_change())
         if (key == allowed || (allowed.back() == '.' && begins_with(key, allowed))) return true;
     // What follows from them.
-    for (const char* derived :
-         {"run.hash", "run.windows", "run.slip_tolerance", "run.output_every", "run.fields_every"})
+    for (const char* derived : {"run.hash", "run.windows", "run.slip_tolerance", "run.output_every",
+                                "run.fields_every", "run.fluid_layers"})
         if (key == derived) return true;
     return false;
 }

@@ -29,17 +29,18 @@ def field_times(run):
         return []
     if run.record.get('fluid_program') == 'box':
         return [(time, path) for time, _, path in rectilinear.entries(fluid / 'fields' / 'fields.pvd')]
-    found = []
-    for entry in processor_fields.time_parent(fluid).iterdir() if fluid.exists() else []:
-        try:
-            time = float(entry.name)
-        except ValueError:
-            continue
-        if (entry / 'U').exists() or (entry / 'U.gz').exists():
-            found.append((time, entry))
+    found = {}
+    for parent in processor_fields.time_parents(fluid) if fluid.exists() else []:
+        for entry in parent.iterdir():
+            try:
+                time = float(entry.name)
+            except ValueError:
+                continue
+            if (entry / 'U').exists() or (entry / 'U.gz').exists():
+                found.setdefault(time, entry)
     if not found:
         run.remarks.append('fluid/ holds no velocity field: pictures show grains only.')
-    return sorted(found)
+    return sorted(found.items())
 
 
 def velocity_at(run, time, folder):

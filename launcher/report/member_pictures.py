@@ -28,12 +28,28 @@ def add(page, members):
     page.heading('Pictures')
     whole = [[pictures.load(run, instant_near(run, row, time)) for time in times] for run, row in zip(runs, rows)]
     limit = common_limit(list(zip(runs, whole)))
-    figures = [pictures.panels(run, shown, limit) for run, shown in zip(runs, whole)]
-    width = max(pictures.panel_width(pictures.view(run, [one.grains for one in shown])) for run, shown in zip(runs, whole))
+    figures = [side_by_side(run, shown, limit) for run, shown in zip(runs, whole)]
+    width = max(width_of(run, shown) for run, shown in zip(runs, whole))
     for k in range(TIMES):
         page.panels([titled(member, figures[i][k]) for i, member in enumerate(members[:MOST_MEMBERS])], '', width)
     page.paragraph(f'One scale of colours {"for all" if limit else "per run"}.' + (' Of groups the first seed.' if any(
         member.is_group() for member in members) else ''))
+
+
+def side_by_side(run, shown, limit):
+    """(figure, name) of a run's pictures; in space obliquely from above, coloured by the speed of the grains."""
+    if not run.in_space():
+        return pictures.panels(run, shown, limit)
+    frame = scene.frame(run, [picture.grains for picture in shown], OBLIQUE)
+    limit = limit or pictures.shown_limit(run, shown)
+    return [(sequence.panel(run, frame, picture.grains, limit), f'sequence-{k}') for k, picture in enumerate(shown)]
+
+
+def width_of(run, shown):
+    """Pixels that a picture needs."""
+    if run.in_space():
+        return sequence.PANEL_WIDTH
+    return pictures.panel_width(pictures.view(run, [picture.grains for picture in shown]))
 
 
 def at_the_end(members):
@@ -57,7 +73,7 @@ def last(run):
 
 def common_limit(shown):
     """Of the colours of all (run, pictures); None where some are those of a fluid and some of grains."""
-    if len({run.is_wet() for run, _ in shown}) > 1:
+    if len({pictures.shows_fluid(run) for run, _ in shown}) > 1:
         return None
     return max(pictures.shown_limit(run, some) for run, some in shown)
 

@@ -165,9 +165,14 @@ def panels(run, shown, limit=None):
     return [(panel(run, picture, limit, size), f'sequence-{k}') for k, picture in enumerate(shown)]
 
 
+def shows_fluid(run):
+    """Whether pictures are coloured by the velocity of the fluid; else by the speed of the grains."""
+    return run.is_wet() and not run.in_space()
+
+
 def shown_limit(run, shown):
     """Of the colours, for all of these pictures [u_c]."""
-    return colour_limit(run, shown) if run.is_wet() else speed_limit(run, shown)
+    return colour_limit(run, shown) if shows_fluid(run) else speed_limit(run, shown)
 
 
 def panel(run, picture, limit, size):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Fields of a fluid case that several ranks wrote: fluid/processor0, fluid/processor1, ...
+"""Fields of a fluid case that several ranks wrote: fluid/processor0, fluid/processor1, ... A run that went on with another
+number of ranks has fields of both: those of one rank in fluid/, those of several in fluid/processorN, and, of earlier numbers of
+them, in fluid/until-SET/processorN.
 
 Every rank writes the values of its own cells; cellProcAddressing, which decomposePar writes beside its mesh, maps
 them to cells of the whole mesh.
@@ -16,10 +18,12 @@ def processor_folders(fluid):
     return sorted(found, key=lambda p: int(p.name[len('processor'):]))
 
 
-def time_parent(fluid):
-    """The folder whose subfolders are the times: the case itself or its first processor folder."""
-    folders = processor_folders(fluid)
-    return folders[0] if folders else Path(fluid)
+def time_parents(fluid):
+    """The folders whose subfolders are times, the present number of ranks first: the first processor folder, the case
+    itself, and the first processor folders of earlier numbers of ranks, the latest first."""
+    earlier = sorted(Path(fluid).glob('until-*'), key=lambda path: path.name, reverse=True)
+    own, *others = (processor_folders(folder) for folder in [Path(fluid), *earlier])
+    return own[:1] + [Path(fluid)] + [folder for folders in others for folder in folders[:1]]
 
 
 def whole_field(time_folder, count, read_part):

@@ -154,8 +154,11 @@ void find_equal_names(const std::vector<PlannedRun>& runs, std::vector<CaseProbl
     for (const PlannedRun& run : runs)
         if (!seen.insert(run.path()).second)
             problems.push_back(problem_at("study", 0, "has two runs " + run.path(),
-                                          "Runs differ in a swept value.",
-                                          "Remove the value that is listed twice."));
+                                          "Runs differ in a swept value, or in the name of their "
+                                          "variant, in which all but letters, digits and . + - are "
+                                          "written as _.",
+                                          "Remove the value that is listed twice, or rename a "
+                                          "variant."));
 }
 
 void require_quick(const Study& study, std::vector<CaseProblem>& problems) {

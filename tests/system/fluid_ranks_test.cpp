@@ -107,6 +107,23 @@ TEST_F(FluidRanks, SidesThatMove) {
         << "the sides do not move the grains";
 }
 
+// A rank with grains has more work per row, and fewer rows.
+TEST_F(FluidRanks, AreCutByWork) {
+    const std::string high = " --set domain.size=[8,16]";
+    const std::vector<double> one = places("fluid.ranks=1" + high);
+    expect_the_same(one, places("fluid.ranks=2" + high), "cut by work");
+    const auto cells_of = [&](const std::string& rank) {
+        // The number of values in the first list of a field: its cells.
+        const std::string field = text(run_folder() / "fluid" / rank / "2.5/U");
+        const std::size_t list = field.find("List<vector>");
+        return std::stoi(field.substr(field.find_first_of("0123456789", list)));
+    };
+    const int lower = cells_of("processor0"), upper = cells_of("processor1");
+    EXPECT_EQ(lower + upper, 64 * 128);
+    EXPECT_LT(lower, 0.8 * upper);
+    EXPECT_GT(lower, 0.3 * upper);
+}
+
 /// Rows that grow above the column, so many that the ranks do not have as many each.
 TEST_F(FluidRanks, WithStretchedRows) {
     const std::string stretched =

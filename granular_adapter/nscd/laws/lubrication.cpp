@@ -9,7 +9,7 @@
 //     R* = R1 R2/(R1 + R2),   g_h < g_c
 //
 // g_h = g + roughness: surfaces touch when their asperities meet, at a film of that thickness. The
-// cut-off g_c is where the cells begin to resolve the film. The force is taken inside the contact
+// cut-off g_c is where the cells begin to resolve the film. Its impulse is taken inside the contact
 // problem (problem/film.hpp), so that any step is stable.
 #include <algorithm>
 #include <cmath>

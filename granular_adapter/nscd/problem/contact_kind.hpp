@@ -10,7 +10,7 @@
 //     operator W    W = H^T M^-1 H of a problem
 //         operator_of(problem, bodies)     makes it
 //         W.bodies(), W.block(k)           mobilities; the diagonal block of contact k
-//     block B       W_kk, with the entry B.nn
+//     block B       W_kk, with the entry B.nn, and its film B.film or nullptr
 //         map_terms(contact, B, r, u)      |natural map|^2 and |r|^2
 //         solution(contact, B, b)          the r of the contact alone, u = W_kk r + b
 //         product(B, r)                    W_kk r
@@ -52,6 +52,7 @@ concept ContactOperator = MobilityKind<typename W::Mobility> &&
     { w.bodies() } -> std::same_as<const std::vector<typename W::Mobility>&>;
     { w.block(std::size_t{}) } -> std::convertible_to<const typename W::Block&>;
     { block.nn } -> std::convertible_to<double>;
+    { block.film } -> std::convertible_to<const Film*>;
     { map_terms(contact, block, x, x) } -> std::same_as<MapTerms>;
     { solution(contact, block, x) } -> std::same_as<ContactVector>;
     { product(block, x) } -> std::same_as<ContactVector>;

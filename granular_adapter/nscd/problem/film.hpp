@@ -1,28 +1,32 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // A film of liquid between two surfaces that approach or part, as one contact of the problem sees
-// it. With the gap at the end of the step, s = g_h + dt v, the film resists with the impulse
+// it. It resists with the force of lubrication less what the cells resolve, from a cut-off g_c on,
 //
-//     spheres    r_f = -dt C (1/s - 1/g_c) v,                 C = 6 pi eta R*^2
-//     discs      r_f = -dt C (s'^{-3/2} - g_c^{-3/2}) v,      C = 3 sqrt(2) pi eta R*^{3/2}
+//     spheres    F = -C (1/g - 1/g_c) v,                C = 6 pi eta R*^2
+//     discs      F = -C (g^{-3/2} - g_c^{-3/2}) v,      C = 3 sqrt(2) pi eta R*^{3/2}
 //
-// and no film for s >= g_c: the force of lubrication less what the cells resolve (space-wide
-// cut-off g_c). s' = min(s, g_h): between discs that part the force at the gap at the end would
-// fall faster than the speed rises, and several speeds would fit one impulse; they part with that
-// at the start. Here in speeds: gamma = g_h/dt, gamma_c = g_c/dt and sigma = s/dt = v + gamma.
+// and over a step, in which the gap goes from g_h to s = g_h + dt v, with the impulse
+//
+//     spheres    r_f = -dt C (1/s - 1/g_c) v            the force at the end of the step
+//     discs      r_f = -C (Phi(s) - Phi(g_h))           its integral, whatever the speed in between
+//                Phi(g) = -2 g^{-1/2} - g g_c^{-3/2},   Phi' = g^{-3/2} - g_c^{-3/2}
+//
+// (that of discs at the gap at the end would fall faster than the speed rises where they part, and
+// several speeds would fit one impulse). No film for s >= g_c: there Phi is Phi(g_c). Here in
+// speeds: gamma = g_h/dt, gamma_c = g_c/dt and sigma = s/dt = v + gamma.
 //
 // Film and Signorini condition are one monotone relation between u_n = v + b_n and r_n. For one
 // contact with u_n = b + W r_n the film alone gives, with sigma_b = b + offset and kappa = W C,
 //
 //     spheres    (1 - kappa/gamma_c) sigma^2 + (kappa (1 + gamma/gamma_c) - sigma_b) sigma
 //                    - kappa gamma = 0
-//     discs      f(sigma) = sigma - sigma_b + kappa (sigma^{-3/2} - gamma_c^{-3/2}) (sigma - gamma)
-//                    = 0
+//     discs      f(sigma) = sigma - sigma_b + kappa (Phi(sigma) - Phi(gamma)) = 0
 //
 // The first has one root in (0, gamma_c] if sigma_b <= gamma_c; beyond it there is no film and
-// sigma = sigma_b. f is increasing and concave where discs close, sigma < gamma, and linear where
-// they part. Where u_n = sigma - offset would be negative the surfaces touch, u_n = 0, and the
-// contact carries what the film at that gap does not.
+// sigma = sigma_b. f rises from minus infinity, concave below gamma_c and with slope 1 above. Where
+// u_n = sigma - offset would be negative the surfaces touch, u_n = 0, and the contact carries what
+// the film at that gap does not.
 #pragma once
 
 #include <algorithm>
@@ -45,16 +49,25 @@ struct Film {
         return u + offset < cutoff || (between == FilmBetween::discs && gap < cutoff);
     }
 
-    /// -r_f over C and the speed sigma - gamma.
-    double resistance(double sigma) const {
-        if (between == FilmBetween::spheres) return 1.0 / sigma - 1.0 / cutoff;
-        return power(std::min(sigma, gap)) - power(cutoff);
+    /// Phi(sigma) - Phi(gamma), between discs. With x, y and z the roots of sigma, gamma and
+    /// gamma_c it is (x - y) (2 z^3 - x y (x + y))/(x y z^3); in a = z - x and b = z - y, which are
+    /// small near the cut-off, nothing cancels.
+    double way_to(double sigma) const {
+        const double to = std::min(sigma, cutoff), from = std::min(gap, cutoff);
+        const double x = std::sqrt(to), y = std::sqrt(from), z = std::sqrt(cutoff);
+        const double s = 2.0 * z - x - y, p = (z - x) * (z - y);  // a + b, a b
+        return (to - from) / (x + y) * (s * (3.0 * cutoff - s * z + p) - 2.0 * p * z) /
+               (x * y * z * cutoff);
     }
 
-    /// r_f at u_n = 0, where the surfaces touch [N s].
+    /// r_f where the surfaces touch at the end of the step, u_n = 0 [N s]. Zero if they part by
+    /// then, in an impact, whose rebound is already without what the film takes.
     double closed() const {
         if (!acts(0.0)) return 0.0;
-        return -coefficient * resistance(offset) * (offset - gap);
+        const double closing = between == FilmBetween::spheres
+                                   ? (1.0 / offset - 1.0 / cutoff) * (gap - offset)
+                                   : -way_to(offset);
+        return std::max(coefficient * closing, 0.0);
     }
 
     /// sigma^{-3/2}
@@ -93,31 +106,25 @@ inline double root_between_spheres(const Film& film, double w, double free) {
     return p >= 0.0 ? 2.0 * e.q / (p + root) : (root - p) / (2.0 * e.a);
 }
 
-/// The same between discs that close, sigma_b < min(gamma, gamma_c). f is concave, so that Newton's
-/// method rises to the root from any point below it, and from any above it falls below.
-inline double root_between_closing_discs(const Film& film, double kappa, double free) {
-    const double least = Film::power(film.cutoff), wide = std::min(film.gap, film.cutoff);
-    // f = 0 for sigma << gamma: sigma^{-3/2} = gamma_c^{-3/2} + (sigma - sigma_b)/(kappa gamma)
-    const double near = least + std::max(0.5 * wide - free, 0.0) / (kappa * film.gap);
-    double sigma = std::min(wide, 1.0 / std::cbrt(near * near));
-    for (int i = 0; i < 200; ++i) {
-        const double power = Film::power(sigma), apart = sigma - film.gap;
-        const double f = sigma - free + kappa * (power - least) * apart;
-        const double slope = 1.0 + kappa * (power - least - 1.5 * power * apart / sigma);
-        const double next = sigma - f / slope;
-        if (f <= 0.0 && next <= sigma) break;
-        sigma = next > 0.0 ? std::min(next, wide) : 0.0625 * sigma;
+/// The same between discs. f is concave below the cut-off, so that Newton's method rises to the
+/// root from any point below it, and from any above it falls below.
+inline double root_between_discs(const Film& film, double w, double free) {
+    const double kappa = w * film.coefficient, least = Film::power(film.cutoff);
+    const double beyond = free - kappa * film.way_to(film.cutoff);
+    if (beyond >= film.cutoff || !(kappa > 0.0)) return beyond;
+    // f = 0 without its linear part: sigma^{-1/2} = -(sigma_b/kappa + Phi(gamma))/2
+    const double from = std::min(film.gap, film.cutoff);
+    const double near = 1.0 / std::sqrt(from) + 0.5 * (from * least - free / kappa);
+    double sigma = near > 0.0 ? std::min(1.0 / (near * near), film.cutoff) : film.cutoff;
+    bool below = false;
+    for (int i = 0; i < 40; ++i) {
+        const double f = sigma - free + kappa * film.way_to(sigma);
+        const double next = sigma - f / (1.0 + kappa * (Film::power(sigma) - least));
+        if (next == sigma || (below && next <= sigma)) break;
+        below = below || f <= 0.0;
+        sigma = next > 0.0 ? std::min(next, film.cutoff) : 0.0625 * sigma;
     }
     return sigma;
-}
-
-/// sigma of a film between discs that acts.
-inline double root_between_discs(const Film& film, double w, double free) {
-    const double kappa = w * film.coefficient;
-    if (free < std::min(film.gap, film.cutoff))
-        return kappa > 0.0 ? root_between_closing_discs(film, kappa, free) : free;
-    if (film.gap >= film.cutoff) return free;
-    return film.gap + (free - film.gap) / (1.0 + kappa * film.resistance(film.gap));
 }
 
 /// r_n with u_n = W r_n + b.

@@ -54,7 +54,8 @@ struct ChangeSums {
     template <class Block>
     void add(const Contact& contact, const Block& w, const ContactVector& old,
              const ContactVector& u) {
-        if (old == ContactVector{} && u.n >= 0.0) return;
+        const bool filmed = w.film && w.film->acts(u.n);
+        if (old == ContactVector{} && u.n >= 0.0 && !filmed) return;
         const ContactVector next = solution(contact, w, u - product(w, old));
         const double du = squared(w, product(w, next - old));
         change += du;

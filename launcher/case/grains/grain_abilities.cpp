@@ -70,13 +70,17 @@ std::vector<GrainRule> rules_of_adapter(const GrainsAdapter& adapter, const Star
 
 /// What the laws of contact do not hold for.
 std::vector<GrainRule> rules_of_contact(const Settings& settings, const GrainForms& forms) {
-    const Ruling objection = corners_do_not_roll(settings);
-    // Of grains.shape its own rule has spoken.
-    if (!objection || !shape_is_round(settings)) return {};
-    return {
-        {[&forms](const PlacedGrain& g) { return !forms.forms[g.shape].record.vertices.empty(); },
-         [](const PlacedGrain&) { return std::string("its shape has corners"); },
-         objection->allowed, objection->remedy}};
+    std::vector<GrainRule> rules;
+    for (const Ruling& objection : {corners_do_not_roll(settings), corners_have_no_films(settings)})
+        // Of grains.shape its own rule has spoken.
+        if (objection && shape_is_round(settings))
+            rules.push_back(
+                {[&forms](const PlacedGrain& g) {
+                     return !forms.forms[g.shape].record.vertices.empty();
+                 },
+                 [](const PlacedGrain&) { return std::string("its shape has corners"); },
+                 objection->allowed, objection->remedy});
+    return rules;
 }
 
 /// The last height with equal rows, where grains have to stay below it.

@@ -20,12 +20,8 @@ Ruling adapter_has_films(const Settings& s) {
                     adapters_that([](const GrainsAdapter& a) { return a.films; }))};
 }
 
-Ruling corners_have_no_films(const Settings& s) {
-    if (!has_films(s) || shape_is_round(s)) return std::nullopt;
-    return Objection{
-        fmt::format("Films of liquid are between round surfaces, but grains.shape = {}.",
-                    s.text("grains.shape")),
-        "Use none, or discs or spheres."};
+Ruling shape_has_films(const Settings& s) {
+    return shape_is_round(s) ? std::nullopt : corners_have_no_films(s);
 }
 
 Ruling solver_has_films(const Settings& s) {
@@ -96,7 +92,7 @@ KeyGroup film_keys() {
               .idle = without_films}},
         .rules = {
             {"contact.film", {"grains.adapter", "fluid.enabled"}, adapter_has_films},
-            {"contact.film", {"grains.shape", "fluid.enabled"}, corners_have_no_films},
+            {"contact.film", {"grains.shape", "fluid.enabled"}, shape_has_films},
             {"contact.solver", {"contact.film", "fluid.enabled"}, solver_has_films},
             {"contact.dump_interval", {"contact.film", "fluid.enabled"}, files_know_films},
             {"contact.film_roughness",

@@ -11,6 +11,7 @@
 #include "coupler/protocol/scene/sides.hpp"
 #include "coupler/protocol/scene/splitting.hpp"
 #include "granular_adapter/contact_keys/contact_keys.hpp"
+#include "launcher/case/fluid_cut.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/transform_length.hpp"
 #include "launcher/case/keys/fluid_program.hpp"
@@ -96,10 +97,6 @@ Ruling scheme_is_stable(const Settings& s) {
         "smaller step."};
 }
 
-// Step 5 needs a halo of three layers (halo_layers in planeField.cpp), and a rank should have
-// more layers than its halo.
-constexpr double least_layers = 4.0;
-
 /// Between walls, a uniform force changes the pressure and nothing else.
 Ruling acceleration_is_along_cyclic_sides(const Settings& s) {
     if (!s.flag("fluid.enabled")) return std::nullopt;
@@ -121,12 +118,12 @@ Ruling ranks_have_cells(const Settings& s) {
     const bool rows = s.text("fluid.decomposition") == "rows";
     const double cells = s.real("fluid.cells_per_diameter");
     const double layers = rows ? fluid_rows(s) : size.at(0) * cells;
-    const double most = std::max(1.0, std::floor(layers / least_layers));
+    const double most = std::max(1.0, std::floor(layers / double{least_layers}));
     if (static_cast<double>(s.integer("fluid.ranks")) <= most) return std::nullopt;
-    return Objection{
-        fmt::format("A rank needs at least {} {} of cells, but there are {}.",
-                    real_text(least_layers), s.text("fluid.decomposition"), real_text(layers)),
-        fmt::format("Use {} or fewer.", real_text(most))};
+    return Objection{fmt::format("A rank needs at least {} {} of cells, but there are {}.",
+                                 real_text(double{least_layers}), s.text("fluid.decomposition"),
+                                 real_text(layers)),
+                     fmt::format("Use {} or fewer.", real_text(most))};
 }
 
 Ruling rows_can_stretch(const Settings& s) {
@@ -334,7 +331,7 @@ std::vector<KeySpec> mesh_keys() {
         {.name = "fluid.decomposition",
          .type = KeyType::choice,
          .fallback = "rows",
-         .choices = {{"rows", "slabs stacked along y, the cheapest"},
+         .choices = {{"rows", "slabs stacked along y, cut by work; the cheapest"},
                      {"columns", "slabs side by side"}},
          .help = "decomposition of the fluid's cells among its ranks",
          .idle = without_fluid_ranks},

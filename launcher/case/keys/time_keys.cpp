@@ -72,6 +72,10 @@ Ruling slices_are_inside(const Settings& s) {
     return std::nullopt;
 }
 
+bool is_whole_number(double value) {
+    return std::abs(value - std::round(value)) <= 1e-6 * value;
+}
+
 void time_notes(const Settings& settings, std::vector<std::string>& notes) {
     const double step = settings.real("time.step");
     const double end = settings.real("time.end");
@@ -81,13 +85,26 @@ void time_notes(const Settings& settings, std::vector<std::string>& notes) {
             fmt::format("time.end = {} is not a whole number of steps; the run ends after "
                         "{} windows at {:.6g} t_c",
                         end, windows, windows * step));
-    if (settings.real("output.interval") < step)
+    const double interval = std::min(settings.real("output.interval"), end);
+    const double every = step * std::max(1.0, std::round(interval / step));
+    if (interval < step)
         notes.push_back("output.interval is shorter than time.step; every window is written");
-    if (settings.has("output.fields_interval") &&
-        settings.real("output.fields_interval") < settings.real("output.interval"))
+    else if (!is_whole_number(interval / step))
+        notes.push_back(
+            fmt::format("output.interval = {} is not a whole number of steps; rows "
+                        "come every {:.6g} t_c",
+                        settings.text("output.interval"), every));
+    if (!settings.has("output.fields_interval")) return;
+    const double fields = settings.real("output.fields_interval");
+    if (fields < interval)
         notes.push_back(
             "output.fields_interval is shorter than output.interval; fields are written at every "
             "output");
+    else if (!is_whole_number(fields / every) && fields < end)
+        notes.push_back(fmt::format(
+            "output.fields_interval = {} is not a whole number of outputs; "
+            "fields come every {:.6g} t_c",
+            settings.text("output.fields_interval"), every * std::round(fields / every)));
 }
 
 }  // namespace

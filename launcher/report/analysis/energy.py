@@ -42,11 +42,11 @@ class Budget:
 
 @once_per_run
 def budget(run):
-    """None for runs of versions that do not write the works, and where grains that leave at the bottom come in at the top,
-    which changes their potential energy."""
+    """None for runs of versions that do not write the works, where grains that leave at the bottom come in at the top,
+    which changes their potential energy, and where grains are driven, on which nobody adds up the work."""
     time, contacts = run.column('contact_work')
     potential = run.column('potential_energy')[1]
-    if not len(contacts) or len(potential) != len(contacts) + 1 or run.has_cyclic_floor():
+    if not len(contacts) or len(potential) != len(contacts) + 1 or run.has_cyclic_floor() or drives_grains(run):
         return None
     whole = run.history['grains'] == run.history['grains'][0]
     rows = len(whole) if whole.all() else int(np.argmin(whole))
@@ -57,6 +57,10 @@ def budget(run):
     return Budget(run.history['time'][:rows], change('kinetic_energy'), change('potential_energy'),
                   work('contact_work'), work('fluid_work') if run.is_wet() else np.zeros(rows),
                   0.5 * step * gravity * changes(weighted_fall(run)[:rows]))
+
+
+def drives_grains(run):
+    return any((one.velocities[~one.free()] != 0.0).any() for one in snapshots.snapshots(run))
 
 
 def changes(values):

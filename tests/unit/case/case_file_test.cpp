@@ -527,7 +527,7 @@ TEST_F(CaseFile, FirstOrderAloneIsTold) {
 
 TEST_F(CaseFile, EndAndStep) {
     EXPECT_SAYS(refusal("", {"time.end=0.001"}), "time.end = 0.001");
-    const ResolvedCase odd = load("", {"time.step=0.03"});
+    const ResolvedCase odd = load("", {"time.step=0.03", "output.interval=0.3"});
     EXPECT_EQ(odd.settings.integer("run.windows"), 33);  // 1 / 0.03 = 33.3
     ASSERT_FALSE(odd.notes.empty());
     EXPECT_SAYS(odd.notes.back(), "33 windows at 0.99 t_c");

@@ -49,6 +49,26 @@ TEST_F(FluidLimits, VeryLightGrainsNeedAPressureThatKnowsThem) {
               "");
 }
 
+// Rows and fields come at whole windows and outputs.
+TEST_F(FluidLimits, IntervalsThatAreNotWholeAreTold) {
+    const auto told = [&](const std::string& interval, const std::string& fields) {
+        std::string all;
+        for (const std::string& note :
+             load("", {"output.interval=" + interval, "output.fields_interval=" + fields}).notes)
+            if (note.find("interval") != std::string::npos) all += note + "\n";
+        return all;
+    };
+    EXPECT_EQ(told("0.03", "0.06"), "");
+    EXPECT_EQ(told("0.1", "5"), "") << "beyond the end";
+    EXPECT_EQ(told("0.025", "0.06"),
+              "output.interval = 0.025 is not a whole number of steps; rows come every 0.03 t_c\n");
+    EXPECT_EQ(told("0.05", "0.07"),
+              "output.fields_interval = 0.07 is not a whole number of "
+              "outputs; fields come every 0.05 t_c\n");
+    EXPECT_SAYS(told("0.001", "1"), "shorter than time.step");
+    EXPECT_SAYS(told("0.1", "0.05"), "shorter than output.interval");
+}
+
 TEST_F(FluidLimits, ABalanceWarnsBeforeItEndsTheRun) {
     const std::string text = refusal("", {"limits.grain_balance_hard=1e-9"});
     EXPECT_SAYS(text, "limits.grain_balance_hard = 1e-09");

@@ -202,12 +202,16 @@ TEST_F(PlaneCase, FilmsAreBetweenDiscsAndSolvedByNlgs) {
     EXPECT_FALSE(load("", with({"contact.film=none"})).settings.has("run.film_cutoff"));
     EXPECT_FALSE(load("", with({"fluid.enabled=false"})).settings.has("run.film_cutoff"));
     EXPECT_SAYS(refusal("", with({"grains.shape=triangle"})),
-                "Films of liquid are between round surfaces, but grains.shape = triangle.");
+                "Films of liquid are between round grains only, but contact.film = lubrication.");
     EXPECT_SAYS(refusal("", with({"contact.solver=central-path", "contact.iterations=1000000"})),
                 "central-path solves contacts without films");
     EXPECT_SAYS(refusal("", with({"contact.dump_interval=1"})), "do not support films");
     EXPECT_SAYS(refusal("", with({"grains.adapter=yade-md", "coupling.scheme=split"})),
                 "yade-md has no films of liquid between grains");
+    // A polygon among discs, in a file.
+    folder.write("g.csv", "id,x,y,shape\n1,2,2,disc\n2,6,6,triangle\n");
+    EXPECT_SAYS(refusal("", with({"grains.file=g.csv", "grains.count=~"})),
+                "its shape has corners");
 }
 
 TEST_F(SpaceCase, SidesOfAFluidSlideAndLetItIn) {

@@ -603,6 +603,15 @@ class Energies(unittest.TestCase):
         self.assertIsNone(energy.budget(data))
         self.assertIsNone(energy.largest_defect(data))
 
+    def test_driven_grains_have_none(self):
+        one = snapshot([[0, 9], [3, 9]], [[0, -1], [0.5, 0]])
+        for driven, found in (([False, True], False), ([False, False], True)):
+            one.prescribed = np.array(driven)
+            self.assertEqual(energy.budget(with_snapshots(self.fall(), one)) is not None, found)
+        one.velocities[1] = 0.0
+        one.prescribed = np.array([False, True])
+        self.assertIsNotNone(energy.budget(with_snapshots(self.fall(), one)), 'a fixed one does no work')
+
     def test_histories_without_works_have_none(self):
         self.assertIsNone(energy.budget(run(time=[0, 1], grains=[1, 1], kinetic_energy=[0, 1])))
 

@@ -2,12 +2,14 @@
 """Merging fields written by several ranks: where each value goes, and what is refused."""
 import sys
 import tempfile
+import types
 import unittest
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / 'launcher/report'))
+import fluid_fields
 import processor_fields
 
 PARTS = ([4, 0, 2], [5, 1, 3])  # cells of two processors
@@ -23,7 +25,8 @@ class ProcessorFields(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)
-        self.fluid = Path(scratch.name)
+        self.fluid = Path(scratch.name) / 'fluid'
+        self.fluid.mkdir()
 
     def write(self, parts, binary=True):
         for n, cells in enumerate(parts):
@@ -37,7 +40,7 @@ class ProcessorFields(unittest.TestCase):
         def part(folder, n):
             cells = PARTS[int(folder.parent.name[-1])]
             return np.array(cells, float)[:, None]
-        first = processor_fields.time_parent(self.fluid) / '0.5'
+        first = processor_fields.time_parents(self.fluid)[0] / '0.5'
         return processor_fields.whole_field(first, count, part)
 
     def test_values_go_to_their_cells(self):
@@ -52,9 +55,20 @@ class ProcessorFields(unittest.TestCase):
 
     def test_a_case_on_one_rank_is_read_as_it_is(self):
         (self.fluid / '0.5').mkdir()
-        self.assertEqual(processor_fields.time_parent(self.fluid), self.fluid)
+        self.assertEqual(processor_fields.time_parents(self.fluid), [self.fluid])
         values = processor_fields.whole_field(self.fluid / '0.5', 3, lambda folder, n: np.arange(n))
         self.assertEqual(values.tolist(), [0, 1, 2])
+
+    def test_fields_of_every_number_of_ranks_are_found(self):
+        for folder in ('0', '0.1', 'until-w00000010/processor0/0', 'until-w00000010/processor0/0.2',
+                       'until-w00000020/processor0/0.3', 'until-w00000020/processor1/0.3', 'processor0/0', 'processor0/0.4',
+                       'constant', 'processor0/constant'):
+            (self.fluid / folder).mkdir(parents=True)
+            (self.fluid / folder / 'U').touch()
+        run = types.SimpleNamespace(folder=self.fluid.parent, record={}, is_wet=lambda: True, remarks=[])
+        self.assertEqual([(time, str(folder.relative_to(self.fluid))) for time, folder in fluid_fields.field_times(run)],
+                         [(0.0, 'processor0/0'), (0.1, '0.1'), (0.2, 'until-w00000010/processor0/0.2'),
+                          (0.3, 'until-w00000020/processor0/0.3'), (0.4, 'processor0/0.4')])
 
     def test_one_label_for_all(self):
         self.assertEqual(processor_fields.read_labels(b'format binary;\n}\n\n3{7}\n').tolist(), [7] * 3)

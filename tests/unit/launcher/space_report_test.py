@@ -2,6 +2,7 @@
 """Pictures and measurements of runs in space: projection, nearest surfaces, free surface, report, film."""
 import json
 import unittest
+import warnings
 
 import matplotlib
 
@@ -15,10 +16,13 @@ import film
 import fluid_fields
 import force_network
 import grain_files
+import member_pictures
 import pictures
 import report
 import run_data
+import seeds
 from analysis import concentration, energy, snapshots, weight_balance
+from document.page import Page
 from space import ball_image, camera, chains, free_surface, scene, slices, walls
 
 CASE = """dimension: 3
@@ -309,6 +313,25 @@ class Walls(SpaceRun):
         behind, before = [len(lines.get_segments()) for lines in axes.collections]
         self.assertGreater(behind, 100)
         self.assertGreater(before, 100)
+
+    def test_a_comparison_has_the_pictures_of_space(self):
+        """Walls that move as space has it, and spheres in the colours of their speed, with a fluid too."""
+        for wet in ('false', 'true'):
+            text = (self.folder / 'case.yaml').read_text().replace('enabled: false', f'enabled: {wet}')
+            self.write('case.yaml', text)
+            data = [run_data.load_run(self.folder) for _ in range(2)]
+            members = [seeds.Member(name, run, [run]) for name, run in zip('ab', data)]
+            page = Page('x')
+            with warnings.catch_warnings():
+                warnings.simplefilter('error')
+                member_pictures.add(page, members)
+            self.assertIn('One scale of colours for all.', page.text())
+            limit = member_pictures.common_limit([(run, [member_pictures.last(run)]) for run in data])
+            self.assertAlmostEqual(limit, 5.0, delta=0.01)
+            [figure, name] = member_pictures.side_by_side(data[0], [pictures.Picture(1.0, self.grains(), None)], 5.0)[0]
+            self.assertEqual(name, 'sequence-0')
+            self.assertIn('Obliquely', figure.get_label())
+            self.assertGreater(sum(len(lines.get_segments()) for lines in figure.axes[0].collections), 200, 'walls')
 
 
 class FreeSurface(SpaceRun):

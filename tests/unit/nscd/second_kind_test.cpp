@@ -28,6 +28,7 @@ void push(Twist& twist, const SphereMobility& body, const Vec3& arm, const Vec3&
 /// Arms are along the normal: normal and tangents are uncoupled, and both tangents are alike.
 struct SphereBlock {
     double nn = 0.0, tt = 0.0;
+    const Film* film = nullptr;  // it has none
 };
 
 /// The tangential part of x, not longer than `most`.
