@@ -15,8 +15,7 @@
 ///     run.surface_shift     s, by which the fluid sees a sphere larger [m]; missing: 0
 ///     run.film_cutoff       films of liquid act at smaller gaps [m]; missing: none
 ///     run.fluid_layers      layers of cells of each rank of the fluid, from the bottom up;
-///     missing:
-///                           one rank, or columns of cells
+///                           missing with one rank, and with columns of cells
 ///     run.acceleration_x    fluid.acceleration [m/s2], and likewise run.acceleration_y, in
 ///                           space run.acceleration_z
 ///     run.dimension         3 in space; missing in the plane

@@ -79,10 +79,7 @@ def common_limit(shown):
 
 
 def drawn(run, picture, limit):
-    limit = limit or pictures.shown_limit(run, [picture])
-    if run.in_space():
-        return sequence.panel(run, scene.frame(run, [picture.grains], OBLIQUE), picture.grains, limit)
-    return pictures.panel(run, picture, limit, pictures.view(run, [picture.grains]))
+    return side_by_side(run, [picture], limit)[0][0]
 
 
 def titled(member, picture):

@@ -7,14 +7,14 @@
 #include <Eigen/Dense>
 
 #include "coupler/rigid/vec3.hpp"
+#include "films.hpp"
 #include "granular_adapter/nscd/problem/plane/delassus.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
-#include "scenes.hpp"
 
 namespace turbidite::nscd {
 namespace {
 
-constexpr double roughness = 1e-3, cutoff = 0.1;
+using scenes::cutoff, scenes::roughness, scenes::settled;
 
 /// Phi(sigma) - Phi(gamma) by Simpson's rule in ln g: the integral of g^{-3/2} - g_c^{-3/2}.
 double integral(const Film& film, double sigma) {
@@ -145,17 +145,19 @@ TEST(DiscFilm, AContactWithAnyWIsSolvedExactly) {
 }
 
 EngineSettings filmed(double viscosity, double friction = 0.0, double tolerance = 1e-10) {
-    EngineSettings settings = scenes::exact(friction, tolerance);
-    settings.law.film = "lubrication";
-    settings.law_settings.viscosity = viscosity;
-    settings.law_settings.film_cutoff = cutoff;
-    settings.law_settings.film_roughness = roughness;
-    return settings;
+    return scenes::with_film(scenes::exact(friction, tolerance), viscosity);
 }
 
 /// C for R*, per depth [N s m^{1/2}].
 double coefficient(double viscosity, double reduced_radius) {
     return 3.0 * std::numbers::sqrt2 * std::numbers::pi * viscosity * std::pow(reduced_radius, 1.5);
+}
+
+/// What the force takes of the speed of a disc at a floor between the cut-off and a gap: C/m (2
+/// g^{-1/2} - 3 g_c^{-1/2} + g g_c^{-3/2}).
+double speed_lost_between(double gap, double viscosity) {
+    return coefficient(viscosity, 0.5) / scenes::disc(1, 0.0, 0.0).mass *
+           (2.0 / std::sqrt(gap) - 3.0 / std::sqrt(cutoff) + gap * std::pow(cutoff, -1.5));
 }
 
 // m dv/dt = -C (g_h^{-3/2} - g_c^{-3/2}) v with dg/dt = v gives
@@ -179,9 +181,7 @@ TEST(DiscFilm, SlowsAnApproachAsTheForceOfLubricationDoes) {
         const double share = (height - gap) / (height - film());
         return before + share * (engine.bodies().twist[0].velocity[1] - before);
     };
-    const double lost =
-        coefficient(viscosity, 0.5) / scenes::disc(1, 0.0, 0.0).mass *
-        (2.0 / std::sqrt(gap) - 3.0 / std::sqrt(cutoff) + gap * std::pow(cutoff, -1.5));
+    const double lost = speed_lost_between(gap, viscosity);
     ASSERT_GT(lost, 0.2);
     ASSERT_LT(lost, 0.8);
     const double coarse = std::abs(speed_at_gap(4e-4) - (lost - 1.0));
@@ -194,9 +194,7 @@ TEST(DiscFilm, SlowsAnApproachAsTheForceOfLubricationDoes) {
 // g_c^{-1/2} + g g_c^{-3/2}), in steps of any length: the impulse is exact.
 TEST(DiscFilm, HoldsBackWhatPartsInAnyStep) {
     const double viscosity = 0.001;
-    const double lost =
-        coefficient(viscosity, 0.5) / scenes::disc(1, 0.0, 0.0).mass *
-        (2.0 / std::sqrt(roughness) - 3.0 / std::sqrt(cutoff) + roughness * std::pow(cutoff, -1.5));
+    const double lost = speed_lost_between(roughness, viscosity);
     ASSERT_GT(lost, 0.2);
     ASSERT_LT(lost, 0.5);
     for (const double dt : {0.3, 0.02, 0.001}) {
@@ -286,9 +284,7 @@ double rebound(double viscosity, double dt) {
 // l) - l, to first order in the step; and a film that stops the disc leaves none.
 TEST(DiscFilm, ReboundsWithWhatItLeavesOfTheApproach) {
     const double viscosity = 0.0008;
-    const double lost =
-        coefficient(viscosity, 0.5) / scenes::disc(1, 0.0, 0.0).mass *
-        (2.0 / std::sqrt(roughness) - 3.0 / std::sqrt(cutoff) + roughness * std::pow(cutoff, -1.5));
+    const double lost = speed_lost_between(roughness, viscosity);
     ASSERT_GT(lost, 0.1);
     const double left = 0.9 * (1.0 - lost) - lost;
     ASSERT_GT(left, 0.3);
@@ -345,16 +341,6 @@ TEST(DiscFilm, ItsWorkIsTheEnergyThatIsMissing) {
     }
     EXPECT_LT(work, -0.01 * before);
     EXPECT_NEAR(energy() - before, work, 1e-13);
-}
-
-/// A heap that settles in a box.
-StepReport settled(Engine& engine, int steps) {
-    StepReport report;
-    for (int i = 0; i < steps; ++i) {
-        report = engine.step(0.01);
-        engine.move(0.01);
-    }
-    return report;
 }
 
 EngineSettings with_rolling(EngineSettings settings) {

@@ -4,6 +4,7 @@
 // velocity and impulse, solved exactly for each contact and at the gap at the end of the step.
 #include <gtest/gtest.h>
 
+#include "films.hpp"
 #include "granular_adapter/nscd/problem/film.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
 #include "spheres.hpp"
@@ -11,7 +12,7 @@
 namespace turbidite::nscd {
 namespace {
 
-constexpr double roughness = 1e-3, cutoff = 0.1;
+using scenes::cutoff, scenes::roughness, scenes::settled;
 
 /// r_f at sigma, from its definition [N s].
 double film_impulse(const Film& film, double sigma) {
@@ -59,12 +60,7 @@ TEST(Film, AContactIsSolvedExactly) {
 }
 
 EngineSettings filmed(double viscosity, double friction = 0.0, double tolerance = 1e-10) {
-    EngineSettings settings = scenes::exact_in_space(friction, tolerance);
-    settings.law.film = "lubrication";
-    settings.law_settings.viscosity = viscosity;
-    settings.law_settings.film_cutoff = cutoff;
-    settings.law_settings.film_roughness = roughness;
-    return settings;
+    return scenes::with_film(scenes::exact_in_space(friction, tolerance), viscosity);
 }
 
 /// C for R* [N s].
@@ -223,16 +219,6 @@ TEST(Film, ItsWorkIsTheEnergyThatIsMissing) {
     }
     EXPECT_LT(work, -0.01 * before);
     EXPECT_NEAR(scenes::kinetic_energy(engine.bodies()) - before, work, 1e-14);
-}
-
-/// A heap of spheres that settles in a box.
-StepReport settled(Engine& engine, int steps) {
-    StepReport report;
-    for (int i = 0; i < steps; ++i) {
-        report = engine.step(0.01);
-        engine.move(0.01);
-    }
-    return report;
 }
 
 // In a heap: converged, admissible, momentum balanced, and the number of films that press or pull
