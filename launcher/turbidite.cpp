@@ -11,6 +11,7 @@
 
 #include "coupler/keys/nearest_name.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/files/freed_memory.hpp"
 #include "launcher/case/keys/wrapped_text.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/terminal.hpp"
@@ -136,6 +137,7 @@ int turbidite_main(const std::vector<std::string>& words) {
 }  // namespace turbidite
 
 int main(int argc, char** argv) {
+    turbidite::ask_for_large_pages();
     const int code = turbidite::turbidite_main(turbidite::words_of(argc, argv));
     return argc == 1 ? static_cast<int>(turbidite::ExitCode::bad_input) : code;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "coupler/hub/hub.hpp"
+#include "coupler/protocol/files/freed_memory.hpp"
 #include "coupler/transport/intercomm_channel.hpp"
 #include "coupler/transport/joining.hpp"
 #include "coupler/transport/recording.hpp"
@@ -148,6 +149,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: turbidite-coupler RUN [SET]   (started by `turbidite run`)\n");
         return static_cast<int>(ExitCode::bad_input);
     }
+    keep_freed_memory();
     std::optional<MpiEnvironment> mpi;
     return main_program(argv[1], argc == 3 ? argv[2] : "", mpi);
 }

@@ -24,6 +24,7 @@
 #include <string>
 
 #include "coupler/output/run_record.hpp"
+#include "coupler/protocol/files/freed_memory.hpp"
 #include "coupler/protocol/files/run_files.hpp"
 #include "coupler/protocol/files/start_record.hpp"
 #include "coupler/protocol/files/whole_file.hpp"
@@ -81,6 +82,8 @@ void open_log(const Member& member) {
         member.run,
         {member.role, member.rank, host_name(), getpid(), member.command[0], log_of(member)});
     setenv(member_variable, record.c_str(), 1);
+    ask_for_large_pages();  // here, too: on another node, or where a user has pasted the launch
+                            // line
     execvp(member.command[0], member.command);
     std::fprintf(stderr, "turbidite-member: cannot start %s: %s\n", member.command[0],
                  std::strerror(errno));

@@ -186,6 +186,8 @@ void FluidWindow::begin_in_motion() {
     ledger_.begin_with(field_.momentum().sum - before);
     // s contains it.
     if (CoupledStep* coupled = step_.coupled()) coupled->keep_transported();
+    // The jump is no rate of change that the next window should go on with.
+    step_.forget_rates();
 }
 
 /// Pressure and viscosity of the fluid with these grains, where the splitting corrects them.

@@ -160,11 +160,11 @@ class ContactEngine {
         return report_dict(host_.step(dt, {triples(forces), triples(torques)}));
     }
 
-    /// (first, second, depth, depth over the smaller radius), or None.
+    /// (first, second, depth, depth over the smaller radius, whether first is a wall), or None.
     python::object overlap() const {
         const auto pair = host_.overlap();
         if (!pair) return {};
-        return python::make_tuple(pair->first, pair->second, pair->depth, pair->share);
+        return python::make_tuple(pair->first, pair->second, pair->depth, pair->share, pair->wall);
     }
 
     double max_penetration() { return host_.max_penetration(); }
@@ -229,7 +229,8 @@ BOOST_PYTHON_MODULE(turbidite_contact_engine) {
         .def("step", &ContactEngine::step,
              "step(dt, forces, torques): one step; returns the results of the solver.")
         .def("overlap", &ContactEngine::overlap,
-             "(first, second, depth, share of the smaller radius) of the worst pair, or None.")
+             "(first, second, depth, share of the smaller radius, wall?) of the worst pair, or "
+             "None.")
         .def("max_penetration", &ContactEngine::max_penetration, "Deepest overlap [m].")
         .def("memory", &ContactEngine::memory, "Contact impulses and states as bytes.")
         .def("restore_memory", &ContactEngine::restore_memory, "The inverse of memory().")

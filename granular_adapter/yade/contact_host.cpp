@@ -91,7 +91,8 @@ void ContactHost::restore_memory(const std::vector<char>& bytes) {
 }
 
 std::optional<Overlap> ContactHost::overlap() const {
-    return largest_overlap(std::as_const(*engine_).bodies(), shapes_, engine_->settings().box);
+    const nscd::Engine& engine = *engine_;
+    return largest_overlap(engine.bodies(), shapes_, engine.walls(), engine.settings().box);
 }
 
 std::vector<ContactForce> ContactHost::contacts() const {

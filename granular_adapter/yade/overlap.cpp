@@ -9,6 +9,7 @@
 #include "coupler/shapes/shape.hpp"
 #include "coupler/shapes/surface_gap.hpp"
 #include "granular_adapter/nscd/detection/broad_phase.hpp"
+#include "granular_adapter/nscd/detection/detection.hpp"
 
 namespace turbidite::yade {
 namespace {
@@ -17,9 +18,27 @@ bool in_space(const ShapeTable& shapes) {
     return !shapes.empty() && make_shape(shapes.front())->dimension() == 3;
 }
 
+void take_deeper(std::optional<Overlap>& worst, const Overlap& overlap) {
+    if (overlap.depth > 0.0 && (!worst || overlap.share > worst->share)) worst = overlap;
+}
+
+void take_walls(std::optional<Overlap>& worst, const nscd::Bodies& bodies, const ShapeTable& shapes,
+                const std::vector<nscd::Wall>& walls, const nscd::PeriodicBox& box) {
+    if (walls.empty() || bodies.size() == 0) return;
+    // With reach and share zero: points with g < 0.
+    for (const nscd::ContactPoint& point :
+         nscd::Detection(shapes, box).points(bodies, walls, Vec3{}, 0.0, 0.0)) {
+        const auto b = static_cast<std::size_t>(point.b);
+        if (point.wall < 0 || bodies.fixed[b]) continue;
+        take_deeper(worst, {walls[static_cast<std::size_t>(point.wall)].key, bodies.id[b],
+                            -point.gap, -point.gap / bodies.radius[b], true});
+    }
+}
+
 }  // namespace
 
 std::optional<Overlap> largest_overlap(const nscd::Bodies& bodies, const ShapeTable& shapes,
+                                       const std::vector<nscd::Wall>& walls,
                                        const nscd::PeriodicBox& box) {
     std::vector<std::vector<Point2>> outlines;
     for (const ShapeRecord& shape : shapes) outlines.push_back(make_shape(shape)->outline());
@@ -37,9 +56,9 @@ std::optional<Overlap> largest_overlap(const nscd::Bodies& bodies, const ShapeTa
         const double depth = spheres ? bodies.radius[a] + bodies.radius[b] - norm(offset)
                                      : -surface_gap(at(a, Vec3{}), at(b, offset));
         const double share = depth / std::min(bodies.radius[a], bodies.radius[b]);
-        if (depth > 0.0 && (!worst || share > worst->share))
-            worst = Overlap{bodies.id[a], bodies.id[b], depth, share};
+        take_deeper(worst, {bodies.id[a], bodies.id[b], depth, share});
     }
+    take_walls(worst, bodies, shapes, walls, box);
     return worst;
 }
 

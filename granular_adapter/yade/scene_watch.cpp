@@ -2,6 +2,7 @@
 #include "granular_adapter/yade/scene_watch.hpp"
 
 #include <boost/python.hpp>
+#include <limits>
 
 namespace turbidite::yade {
 
@@ -9,20 +10,38 @@ namespace python = boost::python;
 
 namespace {
 
-/// -1 if YADE has erased the body.
-long id_of(const python::object& body) {
-    static PyObject* const name = PyUnicode_InternFromString("id");
-    const python::handle<> id(PyObject_GetAttr(body.ptr(), name));
-    return PyLong_AsLong(id.get());
+/// -1 for an id if YADE has erased the body.
+long whole_number(const python::object& body, PyObject* name) {
+    const python::handle<> value(PyObject_GetAttr(body.ptr(), name));
+    return PyLong_AsLong(value.get());
+}
+
+/// Of the body's material; NaN without one that has it.
+double friction_angle(const python::object& body) {
+    static PyObject* const material = PyUnicode_InternFromString("mat");
+    static PyObject* const angle = PyUnicode_InternFromString("frictionAngle");
+    const python::handle<> of(PyObject_GetAttr(body.ptr(), material));
+    const python::handle<> value(python::allow_null(PyObject_GetAttr(of.get(), angle)));
+    if (!value) {
+        PyErr_Clear();
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    return PyFloat_AsDouble(value.get());
 }
 
 }  // namespace
+
+SceneWatch::Mark SceneWatch::mark_of(const python::object& body) {
+    static PyObject* const id = PyUnicode_InternFromString("id");
+    static PyObject* const mask = PyUnicode_InternFromString("mask");
+    return {whole_number(body, id), whole_number(body, mask), friction_angle(body)};
+}
 
 SceneWatch::SceneWatch(std::size_t count, const python::object& bodies, const BodyStates& states)
     : count_(count) {
     for (python::ssize_t i = 0; i < python::len(bodies); ++i) {
         bodies_.push_back(bodies[i]);
-        ids_.push_back(id_of(bodies_.back()));
+        marks_.push_back(mark_of(bodies_.back()));
     }
     for (std::size_t i = 0; i < states.size(); ++i) inertias_.push_back(states.inertia(i));
 }
@@ -30,7 +49,7 @@ SceneWatch::SceneWatch(std::size_t count, const python::object& bodies, const Bo
 bool SceneWatch::changed(std::size_t count, const BodyStates& states) const {
     if (count != count_) return true;
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (id_of(bodies_[i]) != ids_[i]) return true;
+        if (!(mark_of(bodies_[i]) == marks_[i])) return true;
     for (std::size_t i = 0; i < states.size(); ++i)
         if (!(states.inertia(i) == inertias_[i])) return true;
     return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Detects changes of a scene since it was laid out: bodies added or erased, and changed masses,
-// moments of inertia or blocked degrees of freedom.
+// Detects changes of a scene since it was laid out: bodies added or erased, and other masks,
+// friction angles, masses, moments of inertia or blocked degrees of freedom.
 #pragma once
 
 #include <boost/python/object.hpp>
@@ -23,9 +23,16 @@ class SceneWatch {
     bool changed(std::size_t count, const BodyStates& states) const;
 
  private:
+    struct Mark {
+        long id, mask;
+        double friction_angle;
+        bool operator==(const Mark&) const = default;
+    };
+    static Mark mark_of(const boost::python::object& body);
+
     std::size_t count_ = 0;
     std::vector<boost::python::object> bodies_;
-    std::vector<long> ids_;
+    std::vector<Mark> marks_;
     std::vector<BodyInertia> inertias_;
 };
 

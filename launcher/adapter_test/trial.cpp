@@ -45,7 +45,7 @@ constexpr auto case_of_fluid_in_space =
     "dimension: 3\n"
     "domain: {size: [8, 8, 4]}\n"
     "grains: {file: grains.csv, density_ratio: 2.5}\n"
-    "fluid: {reynolds: 36, cells_per_diameter: 8}\n";
+    "fluid: {reynolds: 36, cells_per_diameter: 6}\n";
 
 std::string case_of(const Candidate& candidate) {
     const bool space = candidate.dimension == 3;
@@ -121,11 +121,13 @@ std::map<std::string, double> maxima_of(const RunFolder& folder) {
 
 LaunchSite site_for(const Candidate& candidate) {
     LaunchSite site = this_site();
-    if (candidate.side == Role::grains)
+    if (candidate.side == Role::grains) {
         // The partner takes the place of what the trial does not test.
         site.programs.other_fluid = {site.programs.partner()};
-    else
+        site.programs.scripted_fluid = true;
+    } else {
         site.programs.other_fluid = candidate.words;
+    }
     return site;
 }
 
@@ -202,7 +204,7 @@ JobOutcome replay_trial(const Candidate& candidate, const TrialCase& trial, cons
     const std::string role = role_name(candidate.side);
     const auto line =
         replay_arguments(resolved.settings, run, site_for(candidate), role, recording);
-    prepare_run(resolved, run, line);
+    prepare_run(resolved, run, line, mesh_of_replay(role));
     return settle_outcome(run, start(line, run, resolved.settings, trial.name),
                           {"replay", role + " rank 0"});
 }

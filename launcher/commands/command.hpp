@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace turbidite {
 
@@ -18,6 +19,15 @@ struct Command {
     /// Declares the options; the returned action is called after parsing.
     CommandAction (*declare)(CLI::App& options);
 };
+
+/// --set KEY=VALUE, as often as wanted; the values come in the order in which they are given.
+inline CLI::Option* add_overrides(CLI::App& app, std::vector<std::string>& overrides,
+                                  const std::string& help) {
+    const auto add = [&overrides](const std::string& text) { overrides.push_back(text); };
+    return app.add_option_function<std::string>("--set", add, help)
+        ->trigger_on_parse()
+        ->type_name("KEY=VALUE");
+}
 
 CommandAction declare_new(CLI::App& options);
 CommandAction declare_resume(CLI::App& app);

@@ -116,6 +116,8 @@ int test_adapter(const AdapterTestOptions& options) {
                                                 requirement.name, finding.text)));
         std::fflush(stdout);
     }
+    if (failed > 0 && options.keep.empty())
+        fmt::print("{}", for_stdout("The runs and their logs are gone: --keep DIR keeps them.\n"));
     fmt::print("{}", for_stdout(conclusion(failed) + "\n"));
     return static_cast<int>(failed == 0 ? ExitCode::done : ExitCode::tests_failed);
 }

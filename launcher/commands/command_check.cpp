@@ -51,9 +51,7 @@ CommandAction declare_check(CLI::App& app) {
     const auto options = std::make_shared<CheckOptions>();
     app.add_option("FILE", options->file, "case or study file (YAML), or the name of a shipped one")
         ->required();
-    app.add_option("--set", options->overrides, "key=value, replaces a value of the case")
-        ->allow_extra_args(false)
-        ->type_name("KEY=VALUE");
+    add_overrides(app, options->overrides, "key=value, replaces a value of the case");
     app.add_flag("--quick", options->quick, "the quick form of a study");
     return [options] {
         options->file = case_named(options->file, find_programs());

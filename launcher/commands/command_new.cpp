@@ -9,7 +9,9 @@
 #include "coupler/protocol/failure.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/folder/shipped_cases.hpp"
+#include "launcher/job/launch_line.hpp"
 #include "launcher/own_case/own_case.hpp"
+#include "launcher/study/study_file.hpp"
 
 namespace turbidite {
 namespace {
@@ -23,11 +25,19 @@ int write_new(NewOptions options) {
     const std::filesystem::path shipped = case_named(options.like, find_programs());
     if (!std::filesystem::exists(shipped))
         throw Failure(ExitCode::bad_input, "turbidite: there is no file " + shipped.string());
-    if (options.file.extension() != ".yaml") options.file += ".yaml";
+    if (!options.file.has_filename())
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("turbidite: new \"{}\" names no file\n  Give a name, as in "
+                                  "turbidite new my-case.yaml.",
+                                  options.file.string()));
+    if (const auto ending = options.file.extension(); ending != ".yaml" && ending != ".yml")
+        options.file += ".yaml";
     const OwnCase own = write_own_case(shipped, options.file);
     fmt::print("{}\n", own.file.string());
     for (const auto& file : own.beside) fmt::print("{}\n", file.string());
-    fmt::print("Next: turbidite check {0}; turbidite run {0}\n", own.file.string());
+    const std::string name = shell_line({own.file.string()});
+    fmt::print("Next: turbidite check {0}; turbidite {1} {0}\n", name,
+               is_study(own.file) ? "study" : "run");
     return static_cast<int>(ExitCode::done);
 }
 

@@ -15,6 +15,8 @@
 namespace turbidite {
 namespace {
 
+constexpr int most_parts = 1'000'000;
+
 struct ReplayOptions {
     std::string run, side;
     int part = 0;  ///< of a resumed run; 0: the last one
@@ -74,10 +76,23 @@ std::filesystem::path kept_checkpoint(const std::filesystem::path& recordings,
                     (recordings / set).string()));
 }
 
+/// The folder of the replay is emptied by --force.
+void require_other_folder(const ReplayOptions& options, const RunFolder& recorded) {
+    namespace fs = std::filesystem;
+    if (options.order.out.empty()) return;
+    const fs::path out = fs::weakly_canonical(fs::absolute(options.order.out) / "");
+    const fs::path way = fs::weakly_canonical(recorded.recordings()).lexically_relative(out);
+    if (*way.begin() == "..") return;
+    throw refused(fmt::format("--out = {} holds the recording itself.\n  Choose another folder.",
+                              options.order.out.string()));
+}
+
 int replay(const ReplayOptions& options) {
+    if (options.run.empty()) throw refused("The name of the run is empty.");
     const RunFolder recorded{std::filesystem::absolute(options.run).lexically_normal()};
     if (!is_there(recorded.resolved_case()))
         throw refused(fmt::format("{} is not a run folder: it has no case.yaml.", options.run));
+    require_other_folder(options, recorded);
     const auto recordings = recordings_of(options, recorded);
     const std::string side = side_of(options, recordings);
     const auto recording = recordings / (side + ".frames");
@@ -89,7 +104,7 @@ int replay(const ReplayOptions& options) {
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
     const auto [folder, lock] = own_run_folder(options.order, resolved.name + "-replay");
     const auto line = replay_arguments(resolved.settings, folder, site, side, recording);
-    prepare_run(resolved, folder, line);
+    prepare_run(resolved, folder, line, mesh_of_replay(side));
     if (checkpoint) {
         std::filesystem::create_directories((folder.root / *checkpoint).parent_path());
         std::filesystem::copy(kept, folder.root / *checkpoint);
@@ -125,7 +140,7 @@ CommandAction declare_replay(CLI::App& app) {
         ->type_name("grains|fluid");
     app.add_option("--part", options->part,
                    "an earlier part of a resumed run, from 1; default: the last one")
-        ->check(CLI::PositiveNumber)
+        ->check(CLI::Range(1, most_parts))
         ->type_name("N");
     app.add_option("--out", options->order.out,
                    "folder of the replay, new or empty; default runs/<run>-replay-<date>-<time>")

@@ -47,11 +47,9 @@ int resume(const ResumeOptions& options) {
 CommandAction declare_resume(CLI::App& app) {
     const auto options = std::make_shared<ResumeOptions>();
     app.add_option("DIR", options->folder, "run folder")->required();
-    app.add_option("--set", options->overrides,
-                   "key=value, for the few keys that a run may change, as time.end; may be "
-                   "repeated")
-        ->allow_extra_args(false)
-        ->type_name("KEY=VALUE");
+    add_overrides(app, options->overrides,
+                  "key=value, for the few keys that a run may change, as time.end; may be "
+                  "repeated");
     app.add_flag("--dry-run", options->dry_run,
                  "prepare everything and print the mpirun line instead of starting it; the folder "
                  "keeps the keys of --set, and its run is not done until it has gone on");

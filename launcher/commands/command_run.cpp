@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "coupler/protocol/failure.hpp"
 #include "launcher/case/forecast/disk_cost.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
@@ -17,6 +18,7 @@
 #include "launcher/job/play_run.hpp"
 #include "launcher/job/pour_grains.hpp"
 #include "launcher/job/terminal.hpp"
+#include "launcher/study/study_file.hpp"
 
 namespace turbidite {
 namespace {
@@ -56,7 +58,17 @@ ResolvedCase resolved_case(const RunOptions& options, const LaunchSite& site) {
     return with_poured_grains(std::move(planned), site);
 }
 
+void require_case(const std::filesystem::path& file) {
+    if (!is_study(file)) return;
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("turbidite: {0} is a study of several runs\n  Play it with: turbidite "
+                    "study {0}",
+                    shell_line({file.string()})));
+}
+
 int run(const RunOptions& options) {
+    require_case(options.file);
     hold_announcements();
     const LaunchSite site = this_site();
     const ResolvedCase resolved = resolved_case(options, site);
@@ -82,10 +94,8 @@ CommandAction declare_run(CLI::App& app) {
     const auto options = std::make_shared<RunOptions>();
     app.add_option("CASE", options->file, "case file (YAML), or the name of a shipped case")
         ->required();
-    app.add_option("--set", options->overrides,
-                   "key=value, replaces a value of the case; may be repeated (see turbidite keys)")
-        ->allow_extra_args(false)
-        ->type_name("KEY=VALUE");
+    add_overrides(app, options->overrides,
+                  "key=value, replaces a value of the case; may be repeated (see turbidite keys)");
     app.add_option("--from", options->from,
                    "start from the grains of another run, at its end or at an output time [t_c]")
         ->type_name("DIR[@TIME]");

@@ -299,10 +299,8 @@ CommandAction declare_study(CLI::App& app) {
     const auto options = std::make_shared<StudyOptions>();
     app.add_option("STUDY", options->file, "study file (YAML), or the name of a shipped study")
         ->required();
-    app.add_option("--set", options->overrides,
-                   "key=value for every run, in place of what the study says")
-        ->allow_extra_args(false)
-        ->type_name("KEY=VALUE");
+    add_overrides(app, options->overrides,
+                  "key=value for every run, in place of what the study says");
     app.add_option("--out", options->out, "folder of the run folders; default: the study's `out`")
         ->type_name("DIR");
     app.add_flag("--dry-run", options->dry_run, "list the runs and which of them are done");

@@ -14,6 +14,8 @@
 namespace turbidite {
 namespace {
 
+constexpr int most_threads = 1024;
+
 struct YadeOptions {
     std::string script;
     int threads = 1;
@@ -50,7 +52,7 @@ CommandAction declare_yade(CLI::App& app) {
         ->required()
         ->check(CLI::ExistingFile);
     app.add_option("-j,--threads", options->threads, "threads of YADE's own engines")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, most_threads));
     app.add_flag("--interactive", options->interactive,
                  "with YADE's prompt, and its 3-D view if there is a display");
     app.prefix_command();  // arguments after the script belong to the script

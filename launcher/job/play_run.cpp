@@ -60,7 +60,8 @@ PreparedRun fill(const ResolvedCase& resolved, const OwnFolder& own, const Launc
         throw Failure(ExitCode::bad_input,
                       own.folder.root.string() + ": its grains are not poured");
     const auto line = launch_arguments(resolved.settings, own.folder, site);
-    prepare_run(resolved, own.folder, line);
+    prepare_run(resolved, own.folder, line,
+                site.programs.scripted_fluid ? FluidMesh::left_out : FluidMesh::built);
     add_view(own.folder, site.programs);
     return {own.folder, own.lock, line, rank_names(resolved.settings), resolved.settings};
 }

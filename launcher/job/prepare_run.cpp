@@ -13,6 +13,7 @@
 #include "coupler/checkpoint/checkpoint_sets.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/files/whole_file.hpp"
+#include "coupler/protocol/hello.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
@@ -199,9 +200,10 @@ RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
 
 namespace {
 
-void build_fluid(const Settings& settings, const RunFolder& folder) {
+void build_fluid(const Settings& settings, const RunFolder& folder, FluidMesh mesh) {
     if (!settings.flag("fluid.enabled") || fluid_program(settings) == FluidProgram::box) return;
     write_fluid_case(settings, folder.fluid());
+    if (mesh == FluidMesh::left_out) return;
     build_fluid_mesh(folder.fluid(), folder.log("blockMesh"));
     if (settings.integer("fluid.ranks") > 1)
         decompose_fluid_case(folder.fluid(), folder.log("decomposePar"));
@@ -209,8 +211,12 @@ void build_fluid(const Settings& settings, const RunFolder& folder) {
 
 }  // namespace
 
+FluidMesh mesh_of_replay(const std::string& role) {
+    return role == role_name(Role::fluid) ? FluidMesh::built : FluidMesh::left_out;
+}
+
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
-                 const std::vector<std::string>& command) {
+                 const std::vector<std::string>& command, FluidMesh mesh) {
     // The run folder holds everything that the case names: it can be read, moved and resumed by
     // itself.
     write_text(folder.initial_grains(), resolved.grains_csv);
@@ -225,7 +231,7 @@ void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
     // After the files that it names: a folder with a case can be read, whenever this program ends.
     write_text(folder.resolved_case(), resolved.yaml);
     write_run_json(folder.record(), first_record(resolved, folder, command));
-    build_fluid(resolved.settings, folder);
+    build_fluid(resolved.settings, folder, mesh);
     put_run_on_disk(folder);
 }
 

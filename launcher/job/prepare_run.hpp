@@ -34,9 +34,15 @@ OwnFolder own_run_folder(const RunOrder& order, const std::string& case_name);
 /// The same for a caller that needs no lock afterwards.
 RunFolder make_run_folder(const RunOrder& order, const std::string& case_name);
 
+/// A recorded or scripted fluid needs no mesh.
+enum class FluidMesh { built, left_out };
+
+/// `role`: the side that plays, "grains" or "fluid"; the other one is a recording.
+FluidMesh mesh_of_replay(const std::string& role);
+
 /// Fills it, and the disk has it. `command` is the launch line, kept in run.json.
 void prepare_run(const ResolvedCase& resolved, const RunFolder& folder,
-                 const std::vector<std::string>& command);
+                 const std::vector<std::string>& command, FluidMesh mesh = FluidMesh::built);
 
 /// Adds the script that shows the run in ParaView.
 void add_view(const RunFolder& folder, const Programs& programs);

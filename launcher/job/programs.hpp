@@ -19,6 +19,7 @@ struct Programs {
     bool installed = false;         ///< under a prefix, without sources, tests and benchmarks
     /// Program and arguments in the place of that of the case; empty: that one.
     std::vector<std::string> other_fluid = {};
+    bool scripted_fluid = false;  ///< the other one computes no fluid
 
     std::filesystem::path build() const { return folder.parent_path(); }
     std::filesystem::path coupler() const { return folder / "turbidite-coupler"; }

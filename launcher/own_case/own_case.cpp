@@ -55,20 +55,30 @@ std::vector<fs::path> files_beside(const fs::path& shipped) {
     return names;
 }
 
-void require_free(const fs::path& file) {
-    if (!fs::exists(file)) return;
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("turbidite: {} exists already\n  Choose another name, or remove it.",
-                              file.string()));
+void require_free(const fs::path& file, const std::string& remedy) {
+    if (fs::exists(file))
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("turbidite: {} exists already\n  {}", file.string(), remedy));
+}
+
+/// Nothing to copy: the same file, as another case has brought it along.
+bool is_copied(const fs::path& shipped, const fs::path& file) {
+    return fs::exists(file) && read_whole(file) == read_whole(shipped);
 }
 
 }  // namespace
 
 OwnCase write_own_case(const fs::path& shipped, const fs::path& file) {
     OwnCase own{file, {}};
-    const std::vector<fs::path> names = files_beside(shipped);
-    require_free(file);
-    for (const fs::path& name : names) require_free(file.parent_path() / name);
+    std::vector<fs::path> names = files_beside(shipped);
+    std::erase_if(names, [&](const fs::path& name) {
+        return is_copied(shipped.parent_path() / name, file.parent_path() / name);
+    });
+    require_free(file, "Choose another name, or remove it.");
+    for (const fs::path& name : names)
+        require_free(file.parent_path() / name,
+                     fmt::format("{} names another file of this name. Write it to another folder.",
+                                 shipped.stem().string()));
     const std::string head = fmt::format(
         "# Begun as a copy of {}. Every key, with unit, default and range: `turbidite keys`.\n#\n",
         shipped.stem().string());

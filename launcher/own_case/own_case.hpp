@@ -15,8 +15,8 @@ struct OwnCase {
 };
 
 /// Copies a case with its comments to `file`, and the files that it names to the same places beside
-/// it. Throws Failure (bad input) if one of them exists already or cannot be written; then nothing
-/// is written.
+/// it, but for equal ones that are there. Throws Failure (bad input) if one of them exists already
+/// or cannot be written; then nothing is written.
 OwnCase write_own_case(const std::filesystem::path& shipped, const std::filesystem::path& file);
 
 }  // namespace turbidite

@@ -198,8 +198,18 @@ def as_json(comparison):
                  for member, wall in zip(comparison.members, comparison.wall)]}, indent=2) + '\n'
 
 
+def check_files(page_file):
+    """Tables beside a page that is not there yet are somebody else's: those of a run, say."""
+    if page_file.exists():
+        return
+    for file in (page_file.with_suffix('.csv'), page_file.with_suffix('.json')):
+        if file.exists():
+            raise Refusal(f'--out = {page_file}: {file} would be overwritten. Choose another name.')
+
+
 def compare(page_file, folders, each=False):
     """True if everything was written."""
+    check_files(page_file)
     members = seeds.members(load(folders), each)
     check_spans(members)
     working = Progress('compare')

@@ -126,6 +126,7 @@ TEST_F(New, WritesACaseOfOnesOwnThatIsValid) {
     const Answer again = shell(TURBIDITE_PROGRAM " new my-case.yaml");
     EXPECT_EQ(again.code, 2);
     EXPECT_SAYS(again.err, "my-case.yaml exists already");
+    EXPECT_SAYS(shell(TURBIDITE_PROGRAM " new cases/").err, "names no file");
 }
 
 TEST_F(New, TakesAlongTheFilesThatTheCaseNames) {
@@ -134,7 +135,20 @@ TEST_F(New, TakesAlongTheFilesThatTheCaseNames) {
     EXPECT_EQ(shell(TURBIDITE_PROGRAM " check cases/drum.yaml").code, 0);
     const Answer study = shell(TURBIDITE_PROGRAM " new my-study --like grain-codes");
     EXPECT_EQ(study.code, 0) << study.err;
+    EXPECT_SAYS(study.out, "Next: turbidite check my-study.yaml; turbidite study my-study.yaml\n");
     EXPECT_EQ(shell(TURBIDITE_PROGRAM " check my-study.yaml").code, 0);
+    const Answer no_case = shell(TURBIDITE_PROGRAM " run my-study.yaml");
+    EXPECT_EQ(no_case.code, 2);
+    EXPECT_SAYS(no_case.err, "Play it with: turbidite study my-study.yaml");
+    // Its case serves another study, too, but one that has been changed stays.
+    const Answer second = shell(TURBIDITE_PROGRAM " new second --like grain-codes");
+    EXPECT_EQ(second.code, 0) << second.err;
+    EXPECT_SAYS(second.out, "second.yaml\nNext:");
+    for (const auto& entry : std::filesystem::directory_iterator(scratch.path()))
+        if (entry.path().extension() == ".yaml") scratch.write(entry.path().filename(), "changed");
+    const Answer third = shell(TURBIDITE_PROGRAM " new third --like grain-codes");
+    EXPECT_EQ(third.code, 2);
+    EXPECT_SAYS(third.err, "grain-codes names another file of this name");
     // Its cases have files of their own, and it gives them others.
     const Answer deep = shell(TURBIDITE_PROGRAM " new deep/mine --like paper");
     EXPECT_EQ(deep.code, 0) << deep.err;

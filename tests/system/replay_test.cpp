@@ -25,6 +25,18 @@ TEST_F(Replay, EachSideRepeatsItselfToTheBit) {
         EXPECT_NE(answer.out.find("of the " + side + " compared: identical"), std::string::npos)
             << answer.out;
     }
+    const std::string frames = text(run_folder() / "recording/grains.frames");
+    EXPECT_FALSE(frames.empty());
+    for (const std::string out : {"run", ".", "run/recording/"}) {
+        const Answer same = turbidite("replay run --side grains --force --out " + out);
+        EXPECT_EQ(same.code, 2) << out;
+        EXPECT_SAYS(same.err, "holds the recording itself");
+    }
+    EXPECT_EQ(text(run_folder() / "recording/grains.frames"), frames);
+    EXPECT_EQ(turbidite("replay ''").code, 2);
+    EXPECT_FALSE(
+        std::filesystem::exists(scratch.path() / "again-grains/fluid/constant/polyMesh/faces"))
+        << "the mesh of a recorded fluid";
     const Answer both = turbidite("replay run");
     EXPECT_EQ(both.code, 2);
     EXPECT_NE(both.err.find("--side grains or --side fluid"), std::string::npos) << both.err;

@@ -44,6 +44,15 @@ void take_terms(Contact& contact, const LawTerms& terms, const ContactVector& ap
     contact.torsion = terms.torsion;
 }
 
+/// Where a moment resists, w is relative to the wall, too.
+void take_spin_of(const Wall& wall, bool plane, Contact& contact) {
+    if (contact.rolling == 0.0 && contact.torsion == 0.0) return;
+    if (plane)
+        contact.bias.roll = -wall.twist.spin[2];
+    else
+        contact.spin_bias = -wall.twist.spin;
+}
+
 /// The film of a contact whose bias is set, as the problem has it.
 Film film_in(const FilmTerms& terms, double normal_bias, double step) {
     if (terms.coefficient == 0.0) return {};
@@ -228,6 +237,8 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         const ContactState past = law_.remembers() ? past_[k] : ContactState{};
         const LawTerms terms = law_.terms(now, past);
         take_terms(contact, terms, approach, drive);
+        if (point.wall >= 0)
+            take_spin_of(wall_of(contacts, point), settings_.dimension == 2, contact);
         // At an edge where another wall is nearer an impact sees the film, which acts there.
         if (filmed)
             problem.films.push_back(

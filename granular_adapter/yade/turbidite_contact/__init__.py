@@ -18,11 +18,12 @@ __all__ = ['Refused', 'attach', 'contact_force', 'contacts', 'disc', 'engines', 
            'report', 'show', 'step']
 
 O = Omega()
+_DEFAULT_GRAVITY = (0.0, -9.81, 0.0)
 _STEP = 'import turbidite_contact; turbidite_contact.step()'
 _present = None  # the host of the scene that made the last step
 
 
-def engines(gravity=(0.0, -9.81, 0.0), show=0, **contact):
+def engines(gravity=_DEFAULT_GRAVITY, show=0, **contact):
     """A list for O.engines, which begins with ForceResetter and ends with the store of contact impulses.
 
     gravity  [m/s2]; no z component where bodies move in the plane
@@ -44,21 +45,31 @@ def engines(gravity=(0.0, -9.81, 0.0), show=0, **contact):
     ]
 
 
-def attach(gravity=(0.0, -9.81, 0.0), show=0, **contact):
-    """Sets O.engines to engines(...) followed by those present engines that neither detect contacts nor integrate.
+def attach(gravity=None, show=0, **contact):
+    """Sets O.engines to engines(...) in place of those present engines that detect contacts or integrate.
 
-    Impulses stored by the present engines, or in a scene saved by a coupled run, are kept.
+    What stands before the integrator, such as a ForceEngine, acts before the contacts; the rest follows them. The
+    default gravity is that of the present integrator, or (0, -9.81, 0) without one. Impulses stored by the present
+    engines, or in a scene saved by a coupled run, are kept.
     """
-    replaced = ('ForceResetter', 'InsertionSortCollider', 'InteractionLoop', 'NewtonIntegrator',
-                'GlobalStiffnessTimeStepper')
     present = O.engines
-    kept = [engine for engine in present
-            if type(engine).__name__ not in replaced and not engine.label.startswith('turbidite')]
+    integrators = [k for k, engine in enumerate(present) if type(engine).__name__ == 'NewtonIntegrator']
+    if gravity is None:
+        gravity = present[integrators[0]].gravity if integrators else _DEFAULT_GRAVITY
     ours = engines(gravity, show, **contact)
     for engine in present:
         if engine.label == memory.LABEL:
             memory.write(ours[-1], memory.read(ours[-1])[0], memory.read(engine)[1])
-    O.engines = ours + kept
+    place = integrators[0] if integrators else 0
+    O.engines = ours[:1] + _kept(present[:place]) + ours[1:] + _kept(present[place:])
+
+
+def _kept(engines):
+    """Those that the contact engine does not replace."""
+    replaced = ('ForceResetter', 'InsertionSortCollider', 'InteractionLoop', 'NewtonIntegrator',
+                'GlobalStiffnessTimeStepper')
+    return [engine for engine in engines
+            if type(engine).__name__ not in replaced and not engine.label.startswith('turbidite')]
 
 
 def step():
@@ -83,7 +94,7 @@ def contacts():
 
 
 def contact_force(body):
-    """Sum of the contact forces of the last step on a body or wall, by its id [N]."""
+    """Sum of the contact forces of the last step on a body or wall, by its id [N]; Refused if there is none."""
     return _stepped().contact_force(body)
 
 
@@ -93,8 +104,9 @@ def show():
 
 
 def refresh():
-    """Re-reads shapes and states before the next step; needed after a script has replaced the state of a body or
-    changed a shape. Changes of bodies, masses, degrees of freedom, materials and walls are detected without it."""
+    """Re-reads the scene before the next step; needed after a script has replaced the state of a body, changed a
+    shape, or moved a body where it overlaps others. Bodies that come or go, other masses, degrees of freedom, masks,
+    materials, friction angles, walls and periodic cells are detected without it."""
     if _present is not None:
         _present.scene = None
 

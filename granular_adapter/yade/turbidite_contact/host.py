@@ -12,6 +12,7 @@ O = Omega()
 YADE_DEFAULT_STEP = 1e-8
 # of the smaller radius, for new bodies; packings of soft bodies have 0.01 at most
 MOST_OVERLAP = 0.05
+SAME_GRAVITY = 1e-12  # of it: digits of a saved scene
 
 
 def settings(gravity, show, contact):
@@ -59,7 +60,7 @@ class Host:
         self.sync_count = -1
 
     def step(self, store):
-        check_loop()
+        check_loop(Vector3(*self.settings['gravity']))
         self.follow_scene()
         self.dt = O.dt
         self.report = self.engine.step(self.dt, *self.loads())
@@ -75,19 +76,22 @@ class Host:
 
     def follow_scene(self):
         """Lays the engine out again if bodies were added, erased or changed."""
-        if self.scene is None or self.scene.materials.changed() or self.engine.outdated(len(O.bodies)):
-            known = self.scene.ids if self.scene else []
+        if self.scene is None or self.scene.changed() or self.engine.outdated(len(O.bodies)):
+            known = self.scene.members() if self.scene else []
             self.scene = read_scene()
             self.engine.lay_out(self.scene.layout)
-            if self.scene.ids != known:
+            if self.scene.members() != known:
                 self.check_overlap()
 
     def check_overlap(self):
         worst = self.engine.overlap()
         if worst and worst[3] > MOST_OVERLAP:
             self.scene = None
-            raise Refused('turbidite_contact: bodies %d and %d overlap by %.3g, %.3g of the smaller radius; rigid '
-                          'bodies may start with at most %g. Move them apart' % (*worst, MOST_OVERLAP))
+            first, second, depth, share, wall = worst
+            pair = f'body {second} reaches {depth:.3g} into wall {first}' if wall else \
+                f'bodies {first} and {second} overlap by {depth:.3g}'
+            raise Refused(f'turbidite_contact: {pair}, {share:.3g} of the smaller radius; rigid bodies may start with '
+                          f'at most {MOST_OVERLAP:g}. Move them apart')
 
     def loads(self):
         """(forces, torques) of O.forces by body; empty if none were set in this step.
@@ -117,6 +121,8 @@ class Host:
 
     def contact_force(self, body):
         """Contact force on a body [N]; on a wall, the reaction."""
+        if body not in self.scene.members():
+            raise Refused(f'turbidite_contact: contact_force({body!r}): there is no body or wall of that id')
         for number, impulse, _ in self.engine.impulses():
             if number == body:
                 return Vector3(*impulse) / self.dt
@@ -128,19 +134,29 @@ class Host:
         self.shown = True
 
 
-def check_loop():
-    """Checks that no other engine moves the bodies, and that the forces of the last step are cleared."""
+def check_loop(gravity):
+    """Checks that no other engine moves the bodies, that this one does so once, and that the forces of the last step
+    are cleared."""
     if O.dt == YADE_DEFAULT_STEP or not O.dt > 0:
         raise Refused(f'turbidite_contact: O.dt = {O.dt} s; set the time step, usually 1e-3 to 1e-2 of sqrt(D/g)')
     resetter = False
+    steps = 0
     for engine in O.engines:
         name = type(engine).__name__
         if engine.dead:
+            if name == 'NewtonIntegrator' and (engine.gravity - gravity).norm() > SAME_GRAVITY * gravity.norm():
+                raise Refused(f'turbidite_contact: the NewtonIntegrator of O.engines has gravity = '
+                              f'{tuple(engine.gravity)}, the contact engine {tuple(gravity)}. Make the engines anew: '
+                              'O.engines = turbidite_contact.engines(gravity=...), or attach(gravity=...)')
             continue
         if name == 'NewtonIntegrator':
             raise Refused('turbidite_contact: a NewtonIntegrator in O.engines would move the bodies a second time; '
                           'remove it (the dead one of turbidite_contact.engines() only supplies gravity)')
         resetter = resetter or name == 'ForceResetter'
+        steps += engine.label == 'turbidite_contact'
+        if steps > 1:
+            raise Refused('turbidite_contact: its engines are in O.engines twice and would make two steps in one. '
+                          'O.engines = turbidite_contact.engines(...) or attach(...) sets them once')
         if engine.label == 'turbidite_contact' and not resetter:
             raise Refused('turbidite_contact: no ForceResetter before it in O.engines; forces would accumulate from '
                           'step to step. Keep the one of turbidite_contact.engines()')

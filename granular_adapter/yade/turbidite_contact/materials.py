@@ -6,11 +6,10 @@ from .refusal import refuse
 
 
 class Materials:
-    """Numbers the friction coefficients, and stores the materials, to detect changed angles."""
+    """Numbers the friction coefficients."""
 
     def __init__(self):
         self.frictions = []  # mu by number
-        self._known = []  # (material, its angle), each material once
         self._shared = {}  # id of a shared material -> number
         self._numbers = {}  # mu -> number
 
@@ -26,16 +25,12 @@ class Materials:
             self._shared[material.id] = number
         return number
 
-    def changed(self):
-        return any(material.frictionAngle != angle for material, angle in self._known)
-
     def _coefficient(self, body, material):
         angle = getattr(material, 'frictionAngle', None)
         if angle is None:
             refuse(body, f'has a {type(material).__name__} without frictionAngle', 'use a FrictMat')
         if not 0 <= angle < 0.5 * math.pi:
             refuse(body, f'has frictionAngle = {angle}', 'it must lie in [0, pi/2)')
-        self._known.append((material, angle))
         return math.tan(angle)
 
     def _number_of(self, mu):

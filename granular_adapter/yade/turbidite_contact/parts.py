@@ -2,6 +2,7 @@
 """YADE bodies that move in the plane: discs and convex polygons with a given thickness along z."""
 import math
 
+from turbidite_contact_engine import check_outline
 from yade import utils
 from yade.minieigenHP import Vector3
 from yade.wrapper import Body, Polyhedra
@@ -37,6 +38,7 @@ def polygon(vertices, thickness=None, z=0.0, fixed=False, material=-1, color=Non
     """
     if len(vertices) < 3:
         raise Refused(f'turbidite_contact: a polygon has at least 3 vertices, not {len(vertices)}')
+    check_vertices(vertices)
     extent = max(math.dist(a, b) for a in vertices for b in vertices)
     half = 0.5 * (0.1 * extent if thickness is None else thickness)
     corners = [Vector3(x, y, z + level) for level in (-half, half) for x, y in vertices]
@@ -49,3 +51,14 @@ def polygon(vertices, thickness=None, z=0.0, fixed=False, material=-1, color=Non
     if not fixed:
         body.state.blockedDOFs = PLANAR
     return body
+
+
+def check_vertices(vertices):
+    """Polyhedra ends YADE for some of these, and makes a convex hull of others."""
+    if not all(math.isfinite(coordinate) for vertex in vertices for coordinate in vertex):
+        raise Refused(f'turbidite_contact: the vertices {list(vertices)} of a polygon must be finite')
+    try:
+        check_outline([coordinate for vertex in vertices for coordinate in vertex])
+    except ValueError as error:
+        raise Refused(f'turbidite_contact: the vertices {list(vertices)} are not those of a convex polygon '
+                      f'({error})') from None

@@ -11,6 +11,7 @@ Bodies move in the plane, if free ones have blockedDOFs 'zXY' (or 'zXYZ', withou
 """
 import math
 
+from yade.minieigenHP import Matrix3
 from yade.wrapper import Omega
 
 from . import outlines
@@ -77,10 +78,25 @@ def check_body(body):
 
 
 class Scene:
-    """`layout`: input of the engine; `ids` of its bodies, in order; `materials` of the bodies."""
+    """`layout`: input of the engine; `ids` of its bodies, in order; `wall_states` as in the layout."""
 
-    def __init__(self, layout, ids, materials):
-        self.layout, self.ids, self.materials = layout, ids, materials
+    def __init__(self, layout, ids, wall_states):
+        self.layout, self.ids, self.wall_states = layout, ids, wall_states
+        self.cell = present_cell()
+
+    def members(self):
+        """The ids of bodies and walls."""
+        return self.ids + [wall['key'] for wall in self.layout['walls']]
+
+    def changed(self):
+        """Whether the cell is another one, or a wall is free; the engine looks at the bodies themselves."""
+        return present_cell() != self.cell or any(
+            state.blockedDOFs != 'xyzXYZ' for state in self.wall_states)
+
+
+def present_cell():
+    """What the engine takes from O.cell; None without a periodic cell."""
+    return (Matrix3(O.cell.hSize), Matrix3(O.cell.velGrad)) if O.periodic else None
 
 
 class Builder:
@@ -102,7 +118,7 @@ class Builder:
                   'states': self.states, 'turns': self.turns, 'walls': self.walls,
                   'wall_states': self.wall_states, 'period': period, 'count': len(O.bodies),
                   'watched': list(O.bodies)}
-        return Scene(layout, [record['id'] for record in self.bodies], self.materials)
+        return Scene(layout, [record['id'] for record in self.bodies], self.wall_states)
 
     # ---- bodies ----
 

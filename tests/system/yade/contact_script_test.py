@@ -115,6 +115,52 @@ class Motion(SceneTest):
         self.assertAlmostEqual(O.bodies[turned].state.angVel[2], 2 * 50 * DT / inertia, delta=1e-12)
         self.assertEqual(O.bodies[turned].state.vel, Vector3.Zero)
 
+    def test_attach_keeps_gravity_and_what_acts_before_the_integrator(self):
+        material(0.3)
+        body, = discs([(0, 5)])
+        mass = O.bodies[body].state.mass
+        O.dt = DT
+        O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()]),
+                     ForceEngine(ids=[body], force=(2 * mass, 0, 0)), NewtonIntegrator(gravity=(0, -3, 0)),
+                     PyRunner(command='pass', iterPeriod=1, label='after')]
+        turbidite_contact.attach()
+        self.assertEqual([type(engine).__name__ for engine in O.engines],
+                         ['ForceResetter', 'ForceEngine', 'NewtonIntegrator', 'PyRunner', 'PyRunner', 'PyRunner'])
+        self.assertEqual(O.engines[-1].label, 'after')
+        O.run(100, True)
+        velocity = O.bodies[body].state.vel
+        self.assertAlmostEqual(velocity[0], 0.2, 12)
+        self.assertAlmostEqual(velocity[1], -0.3, 12)
+
+    def test_another_material_counts_from_the_next_step(self):
+        material(0.3)
+        body, = discs([(0, 0.5)])
+        floor()
+        start()
+        O.bodies[body].state.vel = Vector3(1, 0, 0)
+        O.step()
+        before = O.bodies[body].state.vel[0]
+        self.assertAlmostEqual(before, 1 - 0.3 * G * DT, 12)
+        O.bodies[body].mat = O.materials[O.materials.append(FrictMat(density=1000, frictionAngle=0, label='smooth'))]
+        O.step()
+        self.assertAlmostEqual(O.bodies[body].state.vel[0], before, 12)
+
+    def test_a_cell_that_changes_is_seen(self):
+        material(0.3)
+        discs([(0.6, 5), (4.4, 5)])
+        O.periodic = True
+        O.cell.hSize = Matrix3(20, 0, 0, 0, 20, 0, 0, 0, 20)
+        start(gravity=(0, 0, 0))
+        O.bodies[0].state.vel = Vector3(-1, 0, 0)
+        O.step()
+        self.assertEqual(turbidite_contact.report()['candidates'], 0)
+        O.cell.hSize = Matrix3(4.8, 0, 0, 0, 20, 0, 0, 0, 20)  # 1 apart across the side
+        O.run(5, True)
+        self.assertLess(O.bodies[1].state.vel[0], -0.4)
+        O.cell.velGrad = Matrix3(0.1, 0, 0, 0, 0, 0, 0, 0, 0)
+        with self.assertRaisesRegex(RuntimeError, 'the periodic cell deforms'):
+            O.step()
+
     def test_bodies_come_and_go(self):
         """A disc that loses its support falls; one that is added lands on the other."""
         material(0.3)
@@ -369,6 +415,29 @@ class Refusals(SceneTest):
         O.bodies.append(turbidite_contact.polygon([(-0.4, 0.6), (-0.4, 1.6), (-1.2, 1)]))
         self.refused('bodies 0 and 2 overlap')
 
+    def test_bodies_in_walls(self):
+        self.scene()
+        floor(0.1)
+        self.refused('body 0 reaches 0.1 into wall 1, 0.2 of the smaller radius', 'Move them apart')
+        O.bodies[0].state.pos = Vector3(0, 0.58, 0)  # removed slowly
+        turbidite_contact.step()
+        O.bodies.append(utils.facet([(-1, 1, 0), (1, 1, -1), (1, 1, 1)], fixed=True))
+        self.refused('body 0 reaches ', ' into wall 2')
+
+    def test_vertices_of_no_polygon(self):
+        for vertices, fault in (([(0, 0), (1, 0), (2, 0)], 'collinear'), ([(0, 0), (0, 0), (1, 1)], 'the same as'),
+                                ([(0, 0), (math.nan, 0), (1, 1)], 'finite'),
+                                ([(0, 0), (1, 0), (0.2, 0.2), (0, 1)], 'convex')):
+            with self.assertRaisesRegex(turbidite_contact.Refused, fault):
+                turbidite_contact.polygon(vertices)
+
+    def test_a_force_of_no_body(self):
+        self.scene()
+        O.step()
+        self.assertEqual(turbidite_contact.contact_force(0), Vector3.Zero)
+        with self.assertRaisesRegex(turbidite_contact.Refused, r'contact_force\(9\)'):
+            turbidite_contact.contact_force(9)
+
     def test_bodies_of_other_kinds(self):
         self.scene()
         O.bodies.append(utils.tetra([(0, 0, 5), (1, 0, 5), (0, 1, 5), (0, 0, 6)]))
@@ -407,6 +476,13 @@ class Refusals(SceneTest):
         O.dt = DT
         O.engines = O.engines + [NewtonIntegrator()]
         self.refused('NewtonIntegrator in O.engines')
+        O.engines[1].gravity = Vector3(0, 0, -G)
+        self.refused('has gravity = (0.0, 0.0, -10.0), the contact engine (0.0, -10.0, 0.0)')
+        O.engines[1].gravity = Vector3(0, -G, 0)
+        O.engines = O.engines[:-1] + turbidite_contact.engines(gravity=(0, -G, 0))
+        self.refused('twice')
+        start()
+        O.engines = O.engines + [NewtonIntegrator()]
         O.engines = O.engines[1:-1]
         self.refused('no ForceResetter')
         O.engines = O.engines[:-1]

@@ -135,6 +135,27 @@ TEST(FluidWindow, BeginsAlikeBeforeAndAfterContacts) {
     }
 }
 
+/// Velocity of the disc, which falls with its own, after three windows of which all rates of change
+/// are forgotten after one.
+Vec3 after_three(const std::string& splitting, int forgotten) {
+    Scene scene(splitting);
+    scene.disc.velocity = {0.5, -2.0, 0.0};
+    for (int index = 0; index < 3; ++index) {
+        scene.disc.velocity = scene.play(index).kicks.at(0).velocity;
+        if (index == forgotten) scene.window.velocity_changed();
+    }
+    return scene.disc.velocity;
+}
+
+/// The fluid is set in motion at once: the second window does not go on at that rate, the third
+/// one goes on at that of the second.
+TEST_P(EverySplitting, TheFirstJumpIsNoRateOfChange) {
+    constexpr int never = -1;
+    const Vec3 velocity = after_three(GetParam(), never);
+    EXPECT_EQ(after_three(GetParam(), 0), velocity);
+    EXPECT_NE(after_three(GetParam(), 1), velocity);
+}
+
 /// Div u = 0 in a closed box: what goes down in the disc comes up around it.
 TEST_P(EverySplitting, OnlyACorrectedPressureLetsTheFluidGoRound) {
     Scene scene(GetParam());

@@ -246,6 +246,17 @@ class Compare(RunFolderTest):
             self.assertEqual(run['surface']['height'], [y + 0.5, y + 0.5, y + 0.4, 0.0])
         self.assertIn('Surface at the end', (self.folder / 'page.html').read_text())
 
+    def test_tables_of_others_stay(self):
+        for name in ('a', 'b'):
+            self.write_run(name, 1)
+        for page, file in (('a/run.html', 'a/run.json'), ('b/history.html', 'b/history.csv')):
+            before = (self.folder / file).read_bytes()
+            with self.assertRaisesRegex(compare.Refusal, 'would be overwritten'):
+                compare.compare(self.folder / page, [self.folder / 'a', self.folder / 'b'])
+            self.assertEqual((self.folder / file).read_bytes(), before)
+        for _ in range(2):  # its own may be written anew
+            self.assertTrue(compare.compare(self.folder / 'a/page.html', [self.folder / 'a', self.folder / 'b']))
+
     def test_a_page_that_cannot_be_written(self):
         self.write_run('one', 1.0)
         (self.folder / 'page.html').mkdir()

@@ -4,6 +4,10 @@
 // tilted plane.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
+#include "granular_adapter/nscd/problem/residual.hpp"
+#include "granular_adapter/nscd/solvers/nlgs.hpp"
 #include "scenes.hpp"
 
 namespace turbidite::nscd {
@@ -77,6 +81,40 @@ TEST(RollingResistance, SlidesBeyondTheFrictionCone) {
     const Twist end = on_slope(slope);
     EXPECT_NEAR(end.velocity[0], std::sin(alpha) - mu * std::cos(alpha), 1e-11);
     EXPECT_NEAR(end.spin[2], -4.0 * (mu - rolling) * std::cos(alpha), 1e-10);
+}
+
+/// A disc of this spin on a floor that turns at 1 about the contact point: its spin and moment
+/// impulse after a step, as found by the sweep over discs and by that over any contacts.
+void expect_on_turning_floor(double spin, double after, double moment) {
+    Wall turning = scenes::floor(mu);
+    turning.twist.spin = {0.0, 0.0, 1.0};
+    Engine engine(resisting(), scenes::discs, {turning});
+    Body disc = scenes::disc(1, 0.0, 0.5);
+    disc.twist = {{-0.5 * spin, 0.0, 0.0}, {0.0, 0.0, spin}};
+    engine.bodies().add(disc);
+    engine.step(0.01);
+    EXPECT_NEAR(engine.bodies().twist[0].spin[2], after, 1e-13);
+    ContactProblem problem = engine.problem();
+    ASSERT_EQ(problem.contacts.size(), 1u);
+    for (const bool any : {false, true}) {
+        if (any) problem.films.assign(1, Film{});
+        const SolverResult found =
+            Nlgs().solve(problem, Impulses(1), {.tolerance = 1e-13, .max_iterations = 100});
+        EXPECT_NEAR(found.impulses[0].roll, moment, 1e-13) << any;
+        EXPECT_LE(natural_map_residual(problem, found.impulses), 1e-12) << any;
+    }
+}
+
+// Only the spin relative to the wall is resisted. In a step r_n = m g dt, and the moment's limit is
+// mu_r R m g dt: friction keeps the disc rolling, v = -R w, so I + m R^2 = 3/2 m R^2 turns.
+TEST(RollingResistance, IsRelativeToAWallThatTurns) {
+    const double mass = std::numbers::pi / 4, limit = rolling * 0.5 * mass * 0.01;
+    const double change = limit / (1.5 * mass * 0.25);
+    expect_on_turning_floor(1.0, 1.0, 0.0);
+    expect_on_turning_floor(0.0, change, limit);
+    expect_on_turning_floor(2.0, 2.0 - change, -limit);
+    // Held by less than the limit where one step is enough.
+    expect_on_turning_floor(1.0 - 0.5 * change, 1.0, 0.5 * limit);
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ TURBIDITE_INLINE void update(RollingDiscRows<width>& row, PlaneBody* bodies,
     Met<RollingDiscRows<width>> met(row, bodies);
     const R un = normal_velocity(row, met);
     const R ut = tangential_velocity<RollingDiscRows<width>, R>(row, met);
-    const R w = met.b.spin - met.a.spin, roll = load(row.roll);
+    const R w = met.b.spin - met.a.spin + load(row.bias_roll), roll = load(row.roll);
     if constexpr (measure) add_rolling_map(row, sums, met, un, ut, w);
     const R n = larger(R(met.rn - un * load(row.inverse_nn)), R{});
     const R tr = load(row.tr), limit_m = load(row.rolling) * n;
@@ -237,8 +237,9 @@ template <bool measure>
 TURBIDITE_INLINE void update(AnyRows<1>& row, PlaneBody* bodies, PassSums<1>& sums) {
     Met<AnyRows<1>> met(row, bodies);
     const ContactVector r = in_plane(met.rn, met.rt, row.roll);
-    const ContactVector u = in_plane(
-        normal_velocity(row, met), general_tangential_velocity(row, met), met.b.spin - met.a.spin);
+    const ContactVector u =
+        in_plane(normal_velocity(row, met), general_tangential_velocity(row, met),
+                 met.b.spin - met.a.spin + row.bias_roll);
     const Block& w = row.w;
     const ContactVector b = in_plane(u.n - w.nn * r.n - w.nt * r.t - w.nr * r.roll,
                                      u.t - w.nt * r.n - w.tt * r.t - w.tr * r.roll,

@@ -54,6 +54,7 @@ void fill(RollingDiscRows<lanes>& rows, int lane, const PackedContact& packed) {
     const double inverse_rr = w.rr > 0.0 ? 1.0 / w.rr : 0.0;
     rows.rolling.v[lane] = lever(packed);
     rows.roll.v[lane] = packed.r.roll;
+    rows.bias_roll.v[lane] = packed.contact.bias.roll;
     rows.spin_a.v[lane] = packed.a.ss;
     rows.spin_b.v[lane] = packed.b.ss;
     rows.tt.v[lane] = w.tt;
@@ -99,6 +100,7 @@ void fill(AnyRows<1>& rows, int lane, const PackedContact& packed) {
     rows.b_rx = b.x, rows.b_ry = b.y, rows.b_rs = b.spin;
     rows.rolling = lever(packed);
     rows.roll = packed.r.roll;
+    rows.bias_roll = packed.contact.bias.roll;
     rows.length = packed.w.rr > 0.0 ? rolling_length(packed.w) : 1.0;
     rows.w = packed.w;
 }

@@ -51,6 +51,7 @@ struct alignas(64) RollingDiscRows : DiscRows<lanes> {
     using Values = Lanes<lanes>;
     Values rolling;                ///< lever [m]
     Values roll;                   ///< moment impulse [N m s]
+    Values bias_roll;              ///< of w [rad/s]
     Values spin_a, spin_b;         ///< 1/I
     Values tt, tr, rr;             ///< entries of W
     Values inverse_a, inverse_rr;  ///< A = W_tt - W_tr^2/W_rr
@@ -78,6 +79,7 @@ struct AnyRows : GeneralRows<lanes> {
     double b_rx = 0.0, b_ry = 0.0, b_rs = 0.0;
     double rolling = 0.0;
     double roll = 0.0;
+    double bias_roll = 0.0;
     double length = 1.0;
     Block w;
 };

@@ -12,8 +12,8 @@
 //
 // The arms are r_a n and -r_b n. With resistance to rolling and torsion then, at the new spins,
 //
-//     m' = m - (w_b - w_a)/W_rr, its part along n shortened to torsion r_n', the other to rolling
-//     r_n' w_b += 1/I_b (m' - m),  w_a -= 1/I_a (m' - m)
+//     m' = m - (w_b - w_a + b_w)/W_rr, its part along n shortened to torsion r_n', the other to
+//     rolling r_n';   w_b += 1/I_b (m' - m),  w_a -= 1/I_a (m' - m)
 //
 // which is exact for a contact alone where r_a/I_a = r_b/I_b: there m does not change u_t. With a
 // film r_n' is that of film.hpp, and the limits are times the part of it that the contact carries.
@@ -193,6 +193,13 @@ TURBIDITE_INLINE void add_turning_map(const Rows& row, PassSums<Rows::width>& su
     store(sums.size, R(load(sums.size) + all));
 }
 
+/// w_b - w_a + b_w; the spin of a wall is in b_w.
+template <class Rows, class R>
+TURBIDITE_INLINE Vector<R> relative_spin(const Rows& row, const Motion<R>& wa,
+                                         const Motion<R>& wb) {
+    return (wb.rate - wa.rate) + load(row.bias_wx, row.bias_wy, row.bias_wz);
+}
+
 /// The new moment at the relative spin w.
 template <class Rows, class R>
 TURBIDITE_INLINE Vector<R> next_moment(const Rows& row, const Vector<R>& normal, const R& n,
@@ -208,7 +215,7 @@ TURBIDITE_INLINE Vector<R> next_moment(const Rows& row, const Vector<R>& normal,
 template <class Rows, class R>
 TURBIDITE_INLINE void turn(Rows& row, const Vector<R>& normal, const R& n, Motion<R>& wa,
                            Motion<R>& wb) {
-    const Vector<R> moment = next_moment(row, normal, n, Vector<R>(wb.rate - wa.rate));
+    const Vector<R> moment = next_moment(row, normal, n, relative_spin(row, wa, wb));
     const Vector<R> change = moment - load(row.mx, row.my, row.mz);
     wa.rate = wa.rate - wa.inverse * change;
     wb.rate = wb.rate + wb.inverse * change;
@@ -281,7 +288,7 @@ TURBIDITE_INLINE void update(Rows& row, SphereBody* bodies, PassSums<Rows::width
         row.film_cutoff;
     };
     if constexpr (measure && turns && !filmed)
-        add_turning_map(row, sums, normal, un, ut, wb.rate - wa.rate);
+        add_turning_map(row, sums, normal, un, ut, relative_spin(row, wa, wb));
     if constexpr (measure && !turns) add_map(sums, rn, rt, un, ut, mu, inverse_nn);
 
     // r_n' = max(r_n - u_n/W_nn, 0), with a film the root of its equation;
@@ -289,7 +296,7 @@ TURBIDITE_INLINE void update(Rows& row, SphereBody* bodies, PassSums<Rows::width
     const Normal<R> n = solve_normal(row, rn, un);
     const Vector<R> t = clipped(rt - load(row.inverse_tt) * ut, R(mu * n.contact));
     if constexpr (measure && filmed)
-        add_filmed_map(row, sums, normal, n, t, Vector<R>(wb.rate - wa.rate));
+        add_filmed_map(row, sums, normal, n, t, relative_spin(row, wa, wb));
     if constexpr (measure) count_loaded(sums, n.impulse);
 
     // b: v += p/m, w += l_b x p/I;   a: v -= p/m, w -= l_a x p/I

@@ -52,6 +52,9 @@ void fill(TurningSphereRows<lanes>& rows, int lane, const SphereToPack& packed) 
     rows.mx.v[lane] = packed.moment[0];
     rows.my.v[lane] = packed.moment[1];
     rows.mz.v[lane] = packed.moment[2];
+    rows.bias_wx.v[lane] = packed.contact.spin_bias[0];
+    rows.bias_wy.v[lane] = packed.contact.spin_bias[1];
+    rows.bias_wz.v[lane] = packed.contact.spin_bias[2];
     rows.inverse_rr.v[lane] = rotates ? 1.0 / packed.w.rr : 0.0;
     rows.length.v[lane] = rotates ? turning_length(packed.w) : 1.0;
 }

@@ -52,8 +52,9 @@ struct alignas(32) TurningSphereRows : BiasedSphereRows<lanes> {
     using Values = Lanes<lanes>;
     Values rolling, torsion;  ///< levers [m]
     Values mx, my, mz;        ///< moment impulse on b, as a vector
-    Values inverse_rr;        ///< 1/(1/I_a + 1/I_b)
-    Values length;            ///< turning_length()
+    Values bias_wx, bias_wy, bias_wz;
+    Values inverse_rr;  ///< 1/(1/I_a + 1/I_b)
+    Values length;      ///< turning_length()
 };
 
 /// The same with films of liquid (film.hpp).
