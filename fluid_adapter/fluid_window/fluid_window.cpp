@@ -131,7 +131,7 @@ bool FluidWindow::lambda_is_seen() const {
 }
 
 void FluidWindow::project() {
-    drive();
+    if (!step_.coupled()) drive();
     const Projection projection = step_.project();
     ledger_.add(projection.force);
     report_.divergence = projection.flux.divergence;
@@ -139,7 +139,8 @@ void FluidWindow::project() {
 }
 
 /// u += a dt in every cell, those of grains included: the force on a grain contains that of the
-/// mean pressure gradient. It acts with the pressure, before the projection.
+/// mean pressure gradient. It acts with the pressure: before the projection, and after transport
+/// where p^n acts there, so that what is carried in a steady flow is that flow.
 void FluidWindow::drive() {
     if (run_.acceleration == Vec3{}) return;
     field_.accelerate(window_.step * run_.acceleration);
@@ -151,6 +152,7 @@ void FluidWindow::drive() {
 void FluidWindow::transport() {
     parts_ = step_.parts(report_.courant);
     ledger_.add(step_.transport(parts_));
+    if (step_.coupled()) drive();
 }
 
 void FluidWindow::diffuse() {

@@ -39,7 +39,8 @@ KeyGroup molecular_dynamics_keys() {
              .unit = "m g/D",
              .need = Need::optional,
              .range = positive,
-             .help = "molecular dynamics: stiffness of two touching grains; default: from "
+             .help = "molecular dynamics: stiffness of two touching grains, m the mass that they "
+                     "move with, cM in a fluid; default: from "
                      "contact.md_overlap, "
                      "contact.md_speed and the height of the packing",
              .remedy = "Leave it out, or use for example 1e5.",

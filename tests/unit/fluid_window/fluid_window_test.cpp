@@ -208,6 +208,43 @@ TEST_P(EverySplitting, WithoutGrainsWindowsOfCorrectedPressureAreOfSecondOrder) 
         EXPECT_NEAR(of_long / of_half, 2.0, 0.3) << of_long << " and " << of_half;
 }
 
+/// Mean velocity of the stream that a body force drives along an array of fixed discs, when it is
+/// steady; Re = 16 or so.
+double steady_stream(const std::string& splitting, double dt) {
+    constexpr int n = 12;
+    constexpr double side = n * edge, end = 16.0;
+    WatchedStore store(n, edge, 0.05, true, Side::cyclic);
+    Settings driven = settings(splitting);
+    for (const char* name : {"left", "right", "bottom", "top"})
+        driven.set(std::string("domain.") + name, std::string("cyclic"));
+    driven.set("run.size_x", side);
+    driven.set("run.size_y", side);
+    driven.set("run.acceleration_x", 3.0);
+    FluidWindow window(store, driven, {{"disc", {}}});
+    GrainState fixed = sinking_disc();
+    fixed.position = {0.5 * side + 0.013, 0.5 * side + 0.007, 0.0};
+    fixed.velocity = {};
+    fixed.prescribed = true;
+    double mean = 0.0, before = 0.0;
+    for (std::int64_t index = 0; dt * static_cast<double>(index) < end; ++index) {
+        window.advance({index, dt * static_cast<double>(index), dt, false});
+        window.correct({fixed});
+        before = mean;
+        mean = window.impose().report.mean_velocity[0];
+    }
+    EXPECT_NEAR(mean, before, 1e-6 * mean) << "it is not steady";
+    return mean;
+}
+
+/// Convection carries the velocity of the flow, without what the force adds in a window.
+TEST(FluidWindow, ASteadyStreamDoesNotDependOnTheStep) {
+    for (const char* splitting : {"explicit-multiplier", "implicit-multiplier"}) {
+        const double of_short = steady_stream(splitting, 0.005);
+        EXPECT_GT(of_short, 0.4);
+        EXPECT_NEAR(steady_stream(splitting, 0.02) / of_short, 1.0, 1e-8) << splitting;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(, EverySplitting,
                          testing::Values("marchuk-yanenko", "explicit-multiplier",
                                          "implicit-multiplier"),
