@@ -221,20 +221,37 @@ std::string place_of(const PlacedGrain& grain, bool space) {
                  : fmt::format("({}, {})", grain.x, grain.y);
 }
 
+/// A round wall that turns about its own axis stays where it is.
+bool turns_in_itself(const SpaceForm& form) {
+    return form.kind != SpaceWallKind::plate &&
+           norm(cross(form.a, form.spin)) < 1e-9 * norm(form.a) * norm(form.spin);
+}
+
+/// The extent along an axis, the largest that a wall with a spin of its own has on its way.
+double longest_extent(const InnerWall& wall, std::size_t axis) {
+    const Vec3 size = extent_of(wall), spin = wall.space ? wall.space->spin : Vec3{0, 0, wall.spin};
+    if (spin == Vec3{} || (wall.space && turns_in_itself(*wall.space))) return size[axis];
+    Vec3 across = size;  // the spin
+    for (std::size_t k = 0; k < 3; ++k)
+        if (std::abs(spin[k]) == norm(spin)) across[k] = 0.0;
+    return across[axis] == 0.0 ? size[axis] : norm(across);
+}
+
 /// Nothing unless the images of a wall across a cyclic side would lie on the wall itself.
 void check_period(const InnerWall& wall, const PackingBox& box, const std::string& source,
                   std::vector<CaseProblem>& problems) {
-    const Vec3 size = extent_of(wall);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto [period, repeats] = periods_of(box)[axis];
-        if (repeats && size[axis] > period + touching_tolerance)
+        const double size = longest_extent(wall, axis);
+        if (repeats && size > period + touching_tolerance)
             problems.push_back(
                 {.source = source,
                  .line = 0,
                  .key = {},
                  .value = {},
-                 .fault = fmt::format("wall {} is {:.6g} D long along {}", wall.id, size[axis],
-                                      "xyz"[axis]),
+                 .fault =
+                     fmt::format("wall {} is {:.6g} D long along {}{}", wall.id, size, "xyz"[axis],
+                                 size > extent_of(wall)[axis] ? " when it has turned" : ""),
                  .allowed = fmt::format("The box repeats there every {:.6g} D, and the wall with "
                                         "it.",
                                         period),

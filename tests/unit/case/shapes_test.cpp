@@ -251,6 +251,11 @@ TEST_F(WallsFile, AWallThatIsLongerThanTheBoxRepeatsIsRefused) {
     EXPECT_SAYS(with("1,-2,3,10,3,0\n", "cyclic"), "wall 1 is 12 D long along x");
     EXPECT_EQ(with("1,0,3,10,3,0.4\n", "cyclic"), "");
     EXPECT_EQ(with("1,4,3,4,12,0.4\n", "cyclic"), "");
+    folder.write("walls.csv", "id,x1,y1,x2,y2,thickness,spin\n1,4,3,4,15,0.4,0.1\n");
+    const std::vector<std::string> turning = {"domain.walls_file=walls.csv", "domain.size=[10,20]",
+                                              "domain.left=cyclic", "domain.right=cyclic"};
+    EXPECT_SAYS(refusal("grains: {file: grains.csv, adapter: standalone-nscd}\n", turning),
+                "wall 1 is 12.0067 D long along x when it has turned");
 }
 
 /// Rows above 8 D grow to some 0.8 D: what lies across them must be thicker there.

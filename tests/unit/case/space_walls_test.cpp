@@ -149,6 +149,13 @@ TEST_F(SpaceWallsCase, AWallThatIsLongerThanTheBoxRepeatsIsRefused) {
     EXPECT_SAYS(refusal("", cyclic), "wall 0 is 20.2 D long along z");
     walls("0,plate,1,2,1,4,0,0,0,0,22,,,,,,,,,\n");
     EXPECT_SAYS(refusal("", cyclic), "wall 0 is 22 D long along z");
+    // About x, y and its own axis.
+    walls("0,plate,2,3,10,0,24,0,2,0,0,,,,1,0,0,,,\n");
+    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 24 D long along z when it has turned");
+    walls("0,plate,2,3,10,0,24,0,2,0,0,,,,0,1,0,,,\n");
+    EXPECT_EQ(refusal("", cyclic), "");
+    walls("0,cylinder,10,0,0,0,0,20,,,,8,,,0,0,1,,,\n");
+    EXPECT_EQ(refusal("", cyclic), "");
 }
 
 /// Two shells of neighbours would be one in the other; the ends of a thick wall meet those of its
