@@ -231,10 +231,12 @@ bool turns_in_itself(const SpaceForm& form) {
 double longest_extent(const InnerWall& wall, std::size_t axis) {
     const Vec3 size = extent_of(wall), spin = wall.space ? wall.space->spin : Vec3{0, 0, wall.spin};
     if (spin == Vec3{} || (wall.space && turns_in_itself(*wall.space))) return size[axis];
+    const auto is_along = [&](std::size_t k) { return std::abs(spin[k]) == norm(spin); };
+    if (is_along(axis)) return size[axis];
     Vec3 across = size;  // the spin
     for (std::size_t k = 0; k < 3; ++k)
-        if (std::abs(spin[k]) == norm(spin)) across[k] = 0.0;
-    return across[axis] == 0.0 ? size[axis] : norm(across);
+        if (is_along(k)) across[k] = 0.0;
+    return norm(across);
 }
 
 /// Nothing unless the images of a wall across a cyclic side would lie on the wall itself.
