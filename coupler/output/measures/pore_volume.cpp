@@ -78,6 +78,18 @@ void add_images(std::vector<Site>& sites, const Grid& grid, int axis, double per
         }
 }
 
+/// Positions of outside programs may run on across cyclic sides.
+std::vector<SolidGrain> within_period(std::vector<SolidGrain> grains, const Vec3& period) {
+    const auto wrapped = [](double x, double length) {
+        return length > 0.0 ? x - length * std::floor(x / length) : x;
+    };
+    for (SolidGrain& grain : grains) {
+        grain.x = wrapped(grain.x, period[0]);
+        grain.y = wrapped(grain.y, period[1]);
+    }
+    return grains;
+}
+
 std::vector<Site> all_sites(const std::vector<SolidGrain>& grains, double diameter,
                             const Vec3& period) {
     const double margin = 2.0 * slack * diameter;  // the widest circle included
@@ -121,7 +133,7 @@ double pore(const Corners& corner, double diameter) {
 
 double pore_volume(const std::vector<SolidGrain>& grains, double diameter, const Vec3& period) {
     if (grains.empty()) return 0.0;
-    const std::vector<Site> sites = all_sites(grains, diameter, period);
+    const std::vector<Site> sites = all_sites(within_period(grains, period), diameter, period);
     std::vector<GridPoint> places;
     places.reserve(sites.size());
     for (const Site& site : sites) places.push_back(site.place);
