@@ -117,7 +117,10 @@ std::vector<ContactForce> ContactHost::contacts() const {
         contact.normal_force = force.n;
         const nscd::Contact& frame = engine_->problem().contacts[k];
         contact.shear_force = nscd::world_impulse(frame, {0.0, force.t, force.s, 0.0});
-        contact.rolling_moment = force.roll;
+        const Vec3 moment = (1.0 / last_step_) * nscd::world_moment(engine_->impulses(), k);
+        // In space its size, without the part along the normal, which is torsion.
+        contact.rolling_moment =
+            in_space() ? norm(moment - dot(moment, point.normal) * point.normal) : moment[2];
         result.push_back(contact);
     }
     return result;

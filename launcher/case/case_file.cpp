@@ -126,6 +126,7 @@ ResolvedCase resolved_case(CaseEntries entries, const std::filesystem::path& fol
     place_command(settings, folder);
     ResolvedCase resolved = resolve(std::move(settings), std::move(placed), entries);
     if (!of_program.empty()) resolved.notes.push_back(of_program);
+    for (const CaseEntry& entry : entries.entries) resolved.given.push_back(entry.key);
     return resolved;
 }
 

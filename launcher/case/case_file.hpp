@@ -34,6 +34,7 @@ struct ResolvedCase {
     std::filesystem::path file;  ///< the arguments of load_case, for run.json
     std::vector<std::string> overrides;
     std::string from;
+    std::vector<std::string> given;  ///< keys that the case file and overrides name
     /// Hash of the case before its grains were poured; empty if they were not.
     std::string hash_before_pouring;
 };

@@ -140,14 +140,19 @@ PreparedRun prepare_to_play(const PlannedRun& run, const fs::path& out, const La
 template <class Prepare>
 auto unless_it_waits(const PlannedRun& run, const Prepare& prepare)
     -> std::optional<decltype(prepare())> {
+    const auto waits = [&](const char* why) {
+        tell_on_stderr(fmt::format("{}: it stays as it is, and the next call tries again: {}",
+                                   run.path(), why));
+    };
     try {
         return prepare();
     } catch (const Failure& failure) {
         if (failure.code() == ExitCode::bad_input || asked_to_stop(failure.code())) throw;
-        tell_on_stderr(fmt::format("{}: it stays as it is, and the next call tries again: {}",
-                                   run.path(), failure.what()));
-        return std::nullopt;
+        waits(failure.what());
+    } catch (const fs::filesystem_error& error) {
+        waits(error.what());  // a full disk, a folder that may not be written
     }
+    return std::nullopt;
 }
 
 /// Holds `chosen` except while grains are poured: null if another takes the run meanwhile.

@@ -76,13 +76,15 @@ bool is_run_folder(const RunFolder& folder) {
 // Removes only what a run writes, so that a mistyped --out with --force deletes nothing else.
 void empty_run_folder(const RunFolder& folder) {
     for (const fs::path& part :
-         {folder.resolved_case(), folder.record(), folder.history(), folder.grains(),
-          folder.fluid(), folder.logs(), folder.report(), folder.pictures(), folder.film(),
-          folder.view(), folder.checkpoints(), folder.stop(), folder.root / write_file,
-          folder.root / checkpoint_file, folder.recordings(), folder.root / "timeline",
-          folder.root / "differences", folder.root / "contacts", folder.root / "probes.csv"})
+         {folder.history(), folder.grains(), folder.fluid(), folder.logs(), folder.report(),
+          folder.pictures(), folder.film(), folder.view(), folder.checkpoints(), folder.stop(),
+          folder.root / write_file, folder.root / checkpoint_file, folder.recordings(),
+          folder.root / "timeline", folder.root / "differences", folder.root / "contacts",
+          folder.root / "probes.csv"})
         fs::remove_all(part);
     CheckpointSets(folder.root).remove_unfinished();
+    // Last: they say that the folder is one that may be emptied.
+    for (const fs::path& part : {folder.record(), folder.resolved_case()}) fs::remove(part);
 }
 
 Failure folder_refused(const fs::path& out, const std::string& fault, const std::string& remedy) {
@@ -126,6 +128,7 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved, const RunFolde
             {"case", resolved.name},
             {"case_file", resolved.file.string()},
             {"overrides", resolved.overrides},
+            {"given", resolved.given},
             {"from", resolved.from},
             {"out", folder.root.string()},
             {"case_hash", resolved.settings.text("run.hash")},

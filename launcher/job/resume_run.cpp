@@ -159,13 +159,19 @@ bool is_part(const fs::path& folder) {
     return begins_with(folder.filename(), "part-");
 }
 
+long number_of_part(const fs::path& folder) {
+    return std::strtol(folder.filename().c_str() + std::string("part-").size(), nullptr, 10);
+}
+
 /// What the parts so far have left in a folder goes into one of its own there.
 void put_aside(const fs::path& folder) {
     std::vector<fs::path> entries;
     for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
-    const auto parts = std::count_if(entries.begin(), entries.end(), is_part);
+    long last = 0;  // a user may have removed earlier ones
+    for (const fs::path& entry : entries)
+        if (is_part(entry)) last = std::max(last, number_of_part(entry));
     // part-1 is the first part of the run, and so on; that of now stays outside.
-    const fs::path aside = folder / fmt::format("part-{}", parts + 1);
+    const fs::path aside = folder / fmt::format("part-{}", last + 1);
     fs::create_directories(aside);
     for (const fs::path& entry : entries)
         if (!is_part(entry)) fs::rename(entry, aside / entry.filename());
@@ -211,44 +217,56 @@ void remove_later_files(const fs::path& series, std::int64_t windows) {
     for (const fs::path& file : later) fs::remove(file);
 }
 
-std::vector<fs::path> processor_folders(const RunFolder& folder) {
+std::vector<fs::path> processor_folders(const fs::path& fluid_case) {
     std::vector<fs::path> found;
     std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder.fluid(), none))
+    for (const auto& entry : fs::directory_iterator(fluid_case, none))
         if (begins_with(entry.path().filename(), "processor")) found.push_back(entry.path());
     return found;
 }
 
-/// The mesh for another number of ranks. Fields that the others have written stay in
-/// fluid/until-SET.
+void move_all(const std::vector<fs::path>& entries, const fs::path& into) {
+    fs::create_directories(into);
+    for (const fs::path& entry : entries) fs::rename(entry, into / entry.filename());
+}
+
+/// The mesh for another number of ranks than it has. Fields of the ranks that have written the
+/// checkpoint stay in fluid/until-SET, from where they come back with their number.
 void decompose_again(const Settings& settings, const RunFolder& folder, const Chosen& chosen) {
+    const std::int64_t ranks = settings.integer("fluid.ranks");
+    const std::int64_t wrote = chosen.manifest.settings.integer("fluid.ranks");
     const fs::path aside = folder.fluid() / ("until-" + chosen.name);
-    for (const fs::path& own : processor_folders(folder)) {
-        const fs::path there = aside / own.filename();
-        fs::create_directories(aside);
-        if (fs::exists(there))
-            fs::remove_all(own);  // of an earlier attempt, which has written nothing that stays
-        else
-            fs::rename(own, there);
-    }
+    const std::vector<fs::path> present = processor_folders(folder.fluid());
+    if (std::ssize(present) == wrote)
+        move_all(present, aside);
+    else  // of an attempt since then, which has written nothing that stays
+        for (const fs::path& own : present) fs::remove_all(own);
     write_decomposition(settings, folder.fluid());
-    if (settings.integer("fluid.ranks") > 1)
+    const std::vector<fs::path> kept = processor_folders(aside);
+    if (ranks == wrote && std::ssize(kept) == wrote) {
+        move_all(kept, folder.fluid());
+        fs::remove(aside);
+    } else if (ranks > 1) {
         decompose_fluid_case(folder.fluid(), folder.log("decomposePar"));
+    }
 }
 
 void prepare_fluid(const ResolvedCase& resolved, const RunFolder& folder, const Chosen& chosen) {
     if (!resolved.settings.flag("fluid.enabled")) return;
-    const Settings &now = resolved.settings, &then = chosen.manifest.settings;
+    const Settings& now = resolved.settings;
     const RunValues run = run_values(now);
     const double time = static_cast<double>(chosen.manifest.windows) * run.step;
     remove_later_times(folder.fluid(), time);
-    for (const fs::path& own : processor_folders(folder)) remove_later_times(own, time);
+    const std::vector<fs::path> processors = processor_folders(folder.fluid());
+    for (const fs::path& own : processors) remove_later_times(own, time);
     for (const char* series : {"slices", "fields"})
         remove_later_files(folder.fluid() / series, chosen.manifest.windows);
     if (fluid_program(now) == FluidProgram::box) return;
     extend_fluid_case(now, folder.fluid());
-    if (now.integer("fluid.ranks") != then.integer("fluid.ranks"))
-        decompose_again(now, folder, chosen);
+    // Of what is there, which need not be of the checkpoint: a part may have ended before its
+    // first.
+    const std::int64_t ranks = std::max<std::int64_t>(1, std::ssize(processors));
+    if (now.integer("fluid.ranks") != ranks) decompose_again(now, folder, chosen);
 }
 
 void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::int64_t windows,
@@ -258,6 +276,10 @@ void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::in
     record["exit_code"] = nullptr;
     record["error"] = "";
     record["case_hash"] = resolved.settings.text("run.hash");
+    // Of a poured run: it is no longer that of its plan.
+    if (const std::string planned = record.value("hash_before_pouring", "");
+        !planned.empty() && !overrides.empty())
+        record["hash_before_pouring"] = planned + " with other keys";
     record["windows"] = resolved.settings.integer("run.windows");
     record["command"] = shell_line(line);
     record["parts"].push_back({{"resumed", local_time("%Y-%m-%dT%H:%M:%S%z")},
@@ -271,7 +293,15 @@ void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::in
 PreparedRun from_the_beginning(const ResolvedCase& resolved, const RunFolder& folder,
                                std::shared_ptr<RunLock> lock, const LaunchSite& site) {
     fs::remove_all(folder.fluid());
-    return fill(resolved, {folder, std::move(lock)}, site);
+    const auto before = read_run_json(folder.record());
+    PreparedRun prepared = fill(resolved, {folder, std::move(lock)}, site);
+    // The folder's own case does not know where it has come from.
+    auto record = read_run_json(folder.record());
+    for (const char* of :
+         {"case", "case_file", "overrides", "given", "from", "hash_before_pouring"})
+        if (before.contains(of)) record[of] = before[of];
+    write_run_json(folder.record(), record);
+    return prepared;
 }
 
 /// All windows of the case are done, and the coupler has said so.

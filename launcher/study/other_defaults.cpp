@@ -12,6 +12,7 @@
 #include "launcher/case/files/case_entries.hpp"
 #include "launcher/case/files/run_folder.hpp"
 #include "launcher/job/folder/run_json.hpp"
+#include "launcher/version.hpp"
 
 namespace turbidite {
 namespace {
@@ -38,11 +39,31 @@ std::set<std::string> fingerprints(const std::string& resolved) {
 }
 
 bool is_of_grains(const std::string& fingerprint) {
-    return fingerprint.find(" grains, ") != std::string::npos;
+    static const std::regex number("# [0-9]+ grains, .*");
+    return std::regex_match(fingerprint, number);
 }
 
-bool were_poured(const std::filesystem::path& folder) {
-    return !read_run_json(RunFolder{folder}.record()).value("hash_before_pouring", "").empty();
+using Record = nlohmann::ordered_json;
+
+bool were_poured(const Record& record) {
+    return !record.value("hash_before_pouring", "").empty();
+}
+
+/// Keys that the case, the study or the command line named then; nothing in records of versions
+/// that did not keep them.
+std::optional<std::vector<std::string>> given_then(const Record& record) {
+    const auto given = record.find("given");
+    if (given == record.end() || !given->is_array()) return std::nullopt;
+    return given->get<std::vector<std::string>>();
+}
+
+bool is_of_this_program(const Record& record) {
+    const auto versions = record.value("versions", Record::object());
+    return versions.value("turbidite", "") == version() && versions.value("commit", "") == commit();
+}
+
+bool has(const std::vector<std::string>& keys, const std::string& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
 std::string value_in(const Values& values, const std::string& key) {
@@ -62,11 +83,15 @@ std::set<std::string> keys_of(const Values& a, const Values& b) {
 std::optional<std::vector<std::string>> other_defaults(const PlannedRun& run,
                                                        const std::filesystem::path& folder) {
     const std::string text = read_whole(RunFolder{folder}.resolved_case());
+    const Record record = read_run_json(RunFolder{folder}.record());
+    const auto given = given_then(record);
     auto then = values_of(text);
     const auto now = values_of(run.yaml);
     std::set<std::string> files_then = fingerprints(text), files_now = fingerprints(run.yaml);
-    if (were_poured(folder)) {
-        // The plan does not know the packing, but all that it depends on.
+    if (were_poured(record)) {
+        // The plan does not know the packing, but all that it depends on; what stands in a file of
+        // further grains is in the fingerprint of all of them.
+        if (now && now->contains("grains.extra_file")) return std::nullopt;
         std::erase_if(files_then, is_of_grains), std::erase_if(files_now, is_of_grains);
         if (then) then->erase("grains.file");
     }
@@ -75,8 +100,9 @@ std::optional<std::vector<std::string>> other_defaults(const PlannedRun& run,
     for (const std::string& key : keys_of(*then, *now)) {
         const std::string before = value_in(*then, key), after = value_in(*now, key);
         if (before == after) continue;
-        if (std::find(run.given.begin(), run.given.end(), key) != run.given.end())
-            return std::nullopt;
+        // Named now or then: no default. Without that list a default is that of another program.
+        if (has(run.given, key)) return std::nullopt;
+        if (given ? has(*given, key) : is_of_this_program(record)) return std::nullopt;
         changes.push_back(fmt::format("{}: {}, now {} by default", key, before, after));
     }
     return changes;

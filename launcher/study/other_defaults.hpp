@@ -15,8 +15,9 @@
 namespace turbidite {
 
 /// Keys in which the resolved case of the folder differs from the planned one, as texts "key: then,
-/// now by default". Nothing if it is another case: a key that the study or its case gives has
-/// another value, or grains, walls or script differ; nothing, too, where no case can be read.
+/// now by default". Nothing if it is another case: a key that study, case or command line name, or
+/// named when it was played, has another value, or grains, walls or script differ; nothing, too,
+/// where no case can be read.
 std::optional<std::vector<std::string>> other_defaults(const PlannedRun& run,
                                                        const std::filesystem::path& folder);
 

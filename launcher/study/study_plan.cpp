@@ -192,8 +192,7 @@ std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::st
             run.hash = resolved.settings.text("run.hash");
             run.poured = is_poured(resolved.settings);
             run.yaml = resolved.yaml;
-            for (const CaseEntry& entry : read_case_entries(run.case_file, run.overrides).entries)
-                run.given.push_back(entry.key);
+            run.given = resolved.given;
             run.seconds = predicted_seconds(resolved);
             run.disk = predicted_disk(resolved);
         } catch (const CaseRefused& refused) {

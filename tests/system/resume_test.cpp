@@ -201,6 +201,34 @@ INSTANTIATE_TEST_SUITE_P(
         OtherRanks{"ExplicitMultiplier", " --set fluid.splitting=explicit-multiplier", 1e-4}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// Before the next checkpoint: what lies in fluid/ is of the last attempt, the checkpoint of two.
+TEST_F(Resume, AnotherNumberOfFluidRanksMayBeTakenBack) {
+    scratch.write("wet.yaml", wet_case);
+    expect_done(
+        turbidite("run wet.yaml --set grains.adapter=standalone-nscd --set fluid.ranks=2 "
+                  "--set time.end=0.5 --out r"));
+    const auto processors = [&](const fs::path& folder) {
+        int count = 0;
+        for (const auto& entry : fs::directory_iterator(scratch.path() / folder))
+            count += entry.path().filename().string().rfind("processor", 0) == 0;
+        return count;
+    };
+    // A user has removed the logs of earlier parts.
+    scratch.write("r/logs/part-3/coupler.log", "of the third part");
+    for (const int ranks : {1, 3}) {
+        const std::string other = " --set fluid.ranks=" + std::to_string(ranks) + " --dry-run";
+        const Answer answer = turbidite("resume r --set time.end=0.6" + other);
+        EXPECT_EQ(answer.code, 0) << answer.err;
+        EXPECT_EQ(processors("r/fluid"), ranks == 1 ? 0 : ranks);
+    }
+    expect_done(turbidite("resume r --set time.end=0.6 --set fluid.ranks=2"));
+    EXPECT_EQ(processors("r/fluid"), 2);
+    for (const auto& entry : fs::directory_iterator(scratch.path() / "r/fluid"))
+        EXPECT_NE(entry.path().filename().string().rfind("until-", 0), 0u) << entry.path();
+    EXPECT_EQ(text(scratch.path() / "r/logs/part-3/coupler.log"), "of the third part");
+    EXPECT_TRUE(fs::exists(scratch.path() / "r/logs/part-6"));
+}
+
 TEST_F(Resume, ADamagedCheckpointIsPassedOver) {
     scratch.write("case.yaml", wet_case);
     const std::string changes = " --set grains.adapter=standalone-nscd";

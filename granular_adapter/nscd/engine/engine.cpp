@@ -263,9 +263,12 @@ double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<doub
         // A corner that ends farther away than foreseen does no harm: only positive shortfalls
         // count, and only their change since the last round, since earlier ones are in the bias
         // already.
-        const double wanted = std::max(0.0, found[k]), change = wanted - shortfalls[k];
+        // A rebound makes up for its part of them.
+        const double wanted = std::max(0.0, found[k] - dt * contact.rebound_lead);
+        const double change = wanted - shortfalls[k];
         const double u = contact_velocity(contact, velocities).n + contact.bias.n;
-        // With b_n = (g - shortfall)/dt the gap will be dt u - change at the end of the step.
+        // With b_n = (g - shortfall)/dt the gap will be dt u - change at the end of the step, or
+        // more by the rebound's lead.
         if (dt * u < change)
             change_of_any = std::max(change_of_any,
                                      change / bodies.radius[static_cast<std::size_t>(contact.b)]);

@@ -40,17 +40,22 @@ void take_terms(Contact& contact, const LawTerms& terms, const ContactVector& ap
     contact.friction = terms.friction;
     // u is relative to the wall, whose velocity is no unknown: u = H^T v - v_wall + b.
     contact.bias = bias - drive;
+    contact.rebound_lead = terms.rebound_lead;
     contact.rolling = terms.rolling;
     contact.torsion = terms.torsion;
 }
 
-/// Where a moment resists, w is relative to the wall, too.
-void take_spin_of(const Wall& wall, bool plane, Contact& contact) {
+/// Where a moment resists. `approach`: the relative spin of the start of the step, and `drive` that
+/// of the wall.
+void take_spins(Contact& contact, const LawTerms& terms, const Vec3& approach, const Vec3& drive,
+                bool plane) {
     if (contact.rolling == 0.0 && contact.torsion == 0.0) return;
+    // w = spin_b - spin_a - spin_wall + e w^-
+    const Vec3 bias = terms.rolling_restitution * (approach - drive) - drive;
     if (plane)
-        contact.bias.roll = -wall.twist.spin[2];
+        contact.bias.roll = bias[2];
     else
-        contact.spin_bias = -wall.twist.spin;
+        contact.spin_bias = bias;
 }
 
 /// The film of a contact whose bias is set, as the problem has it.
@@ -100,6 +105,10 @@ ContactVector wall_velocity(const DetectedContacts& contacts, const ContactPoint
     const Vec3 v =
         velocity_at(wall_of(contacts, point), contacts.bodies.position[point.b] + point.arm_b);
     return in_frame(contact, v);
+}
+
+Vec3 wall_spin(const DetectedContacts& contacts, const ContactPoint& point) {
+    return point.wall < 0 ? Vec3{} : wall_of(contacts, point).twist.spin;
 }
 
 }  // namespace
@@ -237,8 +246,8 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         const ContactState past = law_.remembers() ? past_[k] : ContactState{};
         const LawTerms terms = law_.terms(now, past);
         take_terms(contact, terms, approach, drive);
-        if (point.wall >= 0)
-            take_spin_of(wall_of(contacts, point), settings_.dimension == 2, contact);
+        take_spins(contact, terms, relative_spin(contact, contacts.bodies.twist),
+                   wall_spin(contacts, point), settings_.dimension == 2);
         // At an edge where another wall is nearer an impact sees the film, which acts there.
         if (filmed)
             problem.films.push_back(

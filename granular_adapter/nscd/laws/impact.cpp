@@ -38,7 +38,9 @@ void demand_rebound(const ContactSituation& s, double restitution, LawTerms& ter
     // The film takes its part again on the way back to the gap at which the window began.
     const double rebound =
         -restitution * approach_at_touch(s, terms.film) - speed_lost(s, terms.film);
-    if (rebound > 0.0) terms.normal_bias = std::min(terms.normal_bias, -rebound);
+    if (!(rebound > 0.0 && -rebound < terms.normal_bias)) return;
+    terms.rebound_lead = terms.normal_bias + rebound;
+    terms.normal_bias = -rebound;
 }
 
 bool never_bounces(const SurfaceTable& surfaces) {

@@ -79,7 +79,9 @@ struct FilmTerms {
 struct LawTerms {
     double friction = 0.0;                ///< mu
     double normal_bias = 0.0;             ///< b_n [m/s]
+    double rebound_lead = 0.0;            ///< how much a rebound has lowered b_n [m/s]
     double tangential_restitution = 0.0;  ///< e_t: b_t = e_t u_t^-
+    double rolling_restitution = 0.0;     ///< e of the relative spin: its bias is e w^-
     double attraction = 0.0;              ///< c, acts on the pair whatever the solver finds [N]
     double rolling = 0.0;                 ///< lever of the rolling resistance [m]
     double torsion = 0.0;                 ///< lever of the torsional resistance [m]

@@ -4,6 +4,8 @@
 //
 //     u_a = (u^+ + e u^-)/(1 + e),   so   b_n = min(b_n, e u_n^-),   b_t = e u_t^-
 //
+// and moments oppose the averaged relative spin, with the bias e w^-,
+//
 // in impacts only. If all impacts of a step have the same e, the energy cannot increase, with any
 // friction and any number of contacts: r . u_a <= 0 and W positive give r . (u^+ + u^-) <= 0.
 #include <stdexcept>
@@ -28,6 +30,7 @@ std::optional<LawPart> make_moreau(const LawSettings& settings, const SurfaceTab
                            if (restitution == 0.0 || !in_impact(s, terms, threshold)) return;
                            demand_rebound(s, restitution, terms);
                            terms.tangential_restitution = restitution;  // b_t = e u_t^-
+                           terms.rolling_restitution = restitution;     // e w^-
                        },
                    .reads_velocities = true};
 }

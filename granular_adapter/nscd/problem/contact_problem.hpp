@@ -9,7 +9,7 @@
 //
 // The impulses r [N s] are over the step; +r acts on body b and -r on body a (if any). The rolling
 // moment impulse m [N m s] acts on b (-m on a) and is conjugate to the relative spin w = spin_b -
-// spin_a, with the spin of the wall where a is one,
+// spin_a + b_w, where the bias contains the spin of a wall,
 //
 //     |m| <= rolling r_n, and m = -rolling r_n w/|w| unless w = 0    rolling resistance
 //
@@ -58,9 +58,12 @@ struct Contact {
     Vec3 arm_b{};
     double friction = 0.0;  ///< mu
     ContactVector bias;     ///< b [m/s], in the plane also that of the relative spin [rad/s]
-    Vec3 spin_bias{};       ///< in space: minus the spin of the wall [rad/s]
-    double rolling = 0.0;   ///< lever of the rolling resistance, mu_r times a radius [m]
-    double torsion = 0.0;   ///< lever of the torsional resistance, in space [m]
+    Vec3 spin_bias{};       ///< in space: of the relative spin [rad/s]
+    /// How much farther a rebound demands the bodies to be at the end of the step than a contact
+    /// without one, over the step; >= 0 [m/s].
+    double rebound_lead = 0.0;
+    double rolling = 0.0;  ///< lever of the rolling resistance, mu_r times a radius [m]
+    double torsion = 0.0;  ///< lever of the torsional resistance, in space [m]
 };
 
 struct ContactProblem {
@@ -140,10 +143,10 @@ inline Vec3 world_moment(const Impulses& r, std::size_t k) {
     return r.moments.empty() ? Vec3{0.0, 0.0, r[k].roll} : r.moments[k];
 }
 
-/// Spin of b relative to a, in space [rad/s].
+/// Spin of b relative to a, without the bias [rad/s].
 inline Vec3 relative_spin(const Contact& contact, const std::vector<Twist>& v) {
     const Vec3& b = v[static_cast<std::size_t>(contact.b)].spin;
-    return contact.a < 0 ? b + contact.spin_bias : b - v[static_cast<std::size_t>(contact.a)].spin;
+    return contact.a < 0 ? b : b - v[static_cast<std::size_t>(contact.a)].spin;
 }
 
 /// v_free + M^-1 H r.

@@ -25,7 +25,7 @@ MapTerms map_terms_of(const ContactProblem& problem, const W& w, const std::vect
     if constexpr (requires { map_terms(contact, w.block(k), r[k], u, Turning{}); })
         if (!r.moments.empty())
             return map_terms(contact, w.block(k), r[k], u,
-                             Turning{r.moments[k], relative_spin(contact, v)});
+                             Turning{r.moments[k], relative_spin(contact, v) + contact.spin_bias});
     return map_terms(contact, w.block(k), r[k], u);
 }
 

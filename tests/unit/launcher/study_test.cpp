@@ -7,6 +7,7 @@
 #include "launcher/study/other_defaults.hpp"
 #include "launcher/study/study_plan.hpp"
 #include "launcher/study/study_record.hpp"
+#include "launcher/version.hpp"
 #include "tests/unit/case/aliases.hpp"
 #include "tests/unit/case/scratch_folder.hpp"
 
@@ -389,7 +390,7 @@ class OtherVersion : public StudyTest {
     }
 
     void leave(const std::vector<std::pair<std::string, std::string>>& changes,
-               const std::string& before_pouring = "") {
+               const std::string& before_pouring = "", const nlohmann::json& more = {}) {
         std::string text = run.yaml;
         for (const auto& [from, to] : changes) {
             const auto at = text.find(from);
@@ -397,14 +398,14 @@ class OtherVersion : public StudyTest {
             text.replace(at, from.size(), to);
         }
         scratch.write(run.path() + "/case.yaml", text);
-        scratch.write(run.path() + "/run.json",
-                      nlohmann::json{{"case_hash", "of that version"},
-                                     {"hash_before_pouring", before_pouring},
-                                     {"status", "done"},
-                                     {"exit_code", 0},
-                                     {"windows", 100},
-                                     {"windows_done", 100}}
-                          .dump());
+        nlohmann::json record = {{"case_hash", "of that version"},
+                                 {"hash_before_pouring", before_pouring},
+                                 {"status", "done"},
+                                 {"exit_code", 0},
+                                 {"windows", 100},
+                                 {"windows_done", 100}};
+        if (!more.is_null()) record.update(more);
+        scratch.write(run.path() + "/run.json", record.dump());
     }
 
     RunState state() const { return state_of(run, scratch.path()); }
@@ -423,6 +424,20 @@ TEST_F(OtherVersion, RunsWithOtherDefaultsAreKept) {
     EXPECT_SAYS(changes(), "contact.rolling_friction: 0.125, now 0 by default");
 }
 
+// A key that was named when the run was played, and is not any more, is no default.
+TEST_F(OtherVersion, RunsWithKeysThatWereNamedAreMissing) {
+    const std::vector<std::pair<std::string, std::string>> changed{
+        {"  rolling_friction: 0", "  rolling_friction: 0.125"}};
+    leave(changed, "", {{"given", {"contact.friction"}}});
+    EXPECT_EQ(state(), RunState::kept);
+    leave(changed, "", {{"given", {"contact.friction", "contact.rolling_friction"}}});
+    EXPECT_EQ(state(), RunState::missing);
+    // Where it is not known which ones were: this program has the same defaults.
+    const nlohmann::json versions = {{"turbidite", version()}, {"commit", commit()}};
+    leave(changed, "", {{"versions", versions}});
+    EXPECT_EQ(state(), RunState::missing);
+}
+
 // The plan knows the case, not the packing that its pouring leaves.
 TEST_F(OtherVersion, PouredRunsAreKnownByTheirPlan) {
     const std::string fingerprint = run.yaml.substr(run.yaml.find("fingerprint"), 28);
@@ -435,6 +450,13 @@ TEST_F(OtherVersion, PouredRunsAreKnownByTheirPlan) {
     EXPECT_EQ(state(), RunState::missing);
     leave({poured});
     EXPECT_EQ(state(), RunState::missing);
+    const std::string head = "# Resolved case";
+    leave({poured, {head, "# Script of the grains, fingerprint 0123456789abcdef\n" + head}},
+          "of that version");
+    EXPECT_EQ(state(), RunState::missing) << "another script";
+    run.yaml.insert(run.yaml.find("grains:\n") + 8, "  extra_file: ball.csv\n");
+    leave({poured}, "of that version");
+    EXPECT_EQ(state(), RunState::missing) << "what stands in the file of further grains";
 }
 
 TEST_F(OtherVersion, RunsWithMoreOrFewerKeysAreKept) {

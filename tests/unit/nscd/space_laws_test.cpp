@@ -89,9 +89,10 @@ TEST(SpaceLaws, TangentialRestitutionIsOfBothDirections) {
 }
 
 // Moreau's law: r_n >= 0 and friction hold for the averaged velocity; the energy does not grow.
-TEST(SpaceLaws, MoreausLawDoesNotGainEnergy) {
+void expect_no_gain(double rolling) {
     EngineSettings settings = scenes::exact_in_space(0.3, 1e-10);
     settings.surfaces = {bouncy(0.8, 0.3)};
+    settings.surfaces[0].rolling_friction = settings.surfaces[0].torsion_friction = rolling;
     settings.law.impact = "moreau";
     settings.gravity = {};
     Engine engine = scenes::settling_spheres(4, 4, settings);
@@ -110,6 +111,37 @@ TEST(SpaceLaws, MoreausLawDoesNotGainEnergy) {
     }
     EXPECT_LT(energy, 0.9 * start);
     EXPECT_GT(energy, 0.05 * start);
+}
+
+TEST(SpaceLaws, MoreausLawDoesNotGainEnergy) {
+    expect_no_gain(0.0);
+    expect_no_gain(0.3);
+}
+
+/// A sphere that friction turns round and resistance to rolling then stops.
+TEST(SpaceLaws, MoreausLawDoesNotGainEnergyByMoments) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> any(0.0, 1.0);
+    int rolled = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        EngineSettings settings = scenes::exact_in_space(1.0, 1e-12);
+        settings.surfaces = {bouncy(0.5 + 0.5 * any(random), 0.2 + any(random))};
+        settings.surfaces[0].rolling_friction = 0.5 * any(random);
+        settings.surfaces[0].torsion_friction = 0.5 * any(random);
+        settings.law.impact = "moreau";
+        settings.gravity = {};
+        Wall wall = scenes::floor(0.0);
+        wall.material = 0;
+        Engine engine(settings, scenes::spheres, {wall});
+        engine.bodies().add(scenes::sphere(1, {0.0, 0.5, 0.0}));
+        engine.bodies().twist[0] = {{any(random), -5.0 * any(random), any(random)},
+                                    {4.0 * any(random), any(random), 4.0 * any(random)}};
+        const double before = scenes::kinetic_energy(engine.bodies());
+        EXPECT_TRUE(engine.step(dt).converged);
+        EXPECT_LE(scenes::kinetic_energy(engine.bodies()), before * (1.0 + 1e-10)) << trial;
+        rolled += norm(world_moment(engine.impulses(), 0)) > 1e-3;
+    }
+    EXPECT_GT(rolled, 100);
 }
 
 // Two coefficients: held up to the static one in any direction, and once it gave way the sliding
