@@ -280,6 +280,10 @@ void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::in
     if (const std::string planned = record.value("hash_before_pouring", "");
         !planned.empty() && !overrides.empty())
         record["hash_before_pouring"] = planned + " with other keys";
+    // Where the keys are known that were named.
+    if (const auto given = record.find("given"); given != record.end())
+        for (const std::string& change : overrides)
+            given->push_back(change.substr(0, change.find('=')));
     record["windows"] = resolved.settings.integer("run.windows");
     record["command"] = shell_line(line);
     record["parts"].push_back({{"resumed", local_time("%Y-%m-%dT%H:%M:%S%z")},
