@@ -58,7 +58,8 @@ def period_of_cell(in_space):
     if not O.periodic:
         return [0.0, 0.0, 0.0]
     cell = O.cell
-    if any(cell.velGrad[i][j] != 0 for i in range(3) for j in range(3)):
+    # `velGrad = ...` sets the next one, which YADE's integrator takes over.
+    if Matrix3(cell.velGrad) != Matrix3.Zero or Matrix3(cell.nextVelGrad) != Matrix3.Zero:
         raise Refused('turbidite_contact: the periodic cell deforms (O.cell.velGrad); only cells at rest are '
                       'supported')
     if any(cell.hSize[i][j] != 0 for i in range(3) for j in range(3) if i != j):
@@ -96,7 +97,8 @@ class Scene:
 
 def present_cell():
     """What the engine takes from O.cell; None without a periodic cell."""
-    return (Matrix3(O.cell.hSize), Matrix3(O.cell.velGrad)) if O.periodic else None
+    cell = O.cell
+    return (Matrix3(cell.hSize), Matrix3(cell.velGrad), Matrix3(cell.nextVelGrad)) if O.periodic else None
 
 
 class Builder:

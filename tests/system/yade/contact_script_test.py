@@ -158,8 +158,7 @@ class Motion(SceneTest):
         O.run(5, True)
         self.assertLess(O.bodies[1].state.vel[0], -0.4)
         O.cell.velGrad = Matrix3(0.1, 0, 0, 0, 0, 0, 0, 0, 0)
-        with self.assertRaisesRegex(RuntimeError, 'the periodic cell deforms'):
-            O.step()
+        self.refused('the periodic cell deforms')
 
     def test_bodies_come_and_go(self):
         """A disc that loses its support falls; one that is added lands on the other."""
