@@ -82,8 +82,8 @@ void open_log(const Member& member) {
         member.run,
         {member.role, member.rank, host_name(), getpid(), member.command[0], log_of(member)});
     setenv(member_variable, record.c_str(), 1);
-    ask_for_large_pages();  // here, too: on another node, or where a user has pasted the launch
-                            // line
+    // Here, too: on another node, or where a user has pasted the launch line.
+    ask_for_large_pages();
     execvp(member.command[0], member.command);
     std::fprintf(stderr, "turbidite-member: cannot start %s: %s\n", member.command[0],
                  std::strerror(errno));

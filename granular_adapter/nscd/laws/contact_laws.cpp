@@ -45,11 +45,13 @@ void take_terms(Contact& contact, const LawTerms& terms, const ContactVector& ap
     contact.torsion = terms.torsion;
 }
 
-/// Where a moment resists. `approach`: the relative spin of the start of the step, and `drive` that
-/// of the wall.
+bool resists_turning(const Contact& contact) {
+    return contact.rolling != 0.0 || contact.torsion != 0.0;
+}
+
+/// `approach`: the relative spin of the start of the step, and `drive` that of the wall.
 void take_spins(Contact& contact, const LawTerms& terms, const Vec3& approach, const Vec3& drive,
                 bool plane) {
-    if (contact.rolling == 0.0 && contact.torsion == 0.0) return;
     // w = spin_b - spin_a - spin_wall + e w^-
     const Vec3 bias = terms.rolling_restitution * (approach - drive) - drive;
     if (plane)
@@ -246,8 +248,9 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         const ContactState past = law_.remembers() ? past_[k] : ContactState{};
         const LawTerms terms = law_.terms(now, past);
         take_terms(contact, terms, approach, drive);
-        take_spins(contact, terms, relative_spin(contact, contacts.bodies.twist),
-                   wall_spin(contacts, point), settings_.dimension == 2);
+        if (resists_turning(contact))
+            take_spins(contact, terms, relative_spin(contact, contacts.bodies.twist),
+                       wall_spin(contacts, point), settings_.dimension == 2);
         // At an edge where another wall is nearer an impact sees the film, which acts there.
         if (filmed)
             problem.films.push_back(

@@ -121,11 +121,11 @@ class Host:
 
     def contact_force(self, body):
         """Contact force on a body [N]; on a wall, the reaction."""
-        if body not in self.scene.members():
-            raise Refused(f'turbidite_contact: contact_force({body!r}): there is no body or wall of that id')
         for number, impulse, _ in self.engine.impulses():
             if number == body:
                 return Vector3(*impulse) / self.dt
+        if body not in self.scene.walls():
+            raise Refused(f'turbidite_contact: contact_force({body!r}): there is no body or wall of that id')
         forces = (-contact.force for contact in self.contacts() if contact.wall and contact.id1 == body)
         return sum(forces, Vector3.Zero)
 

@@ -85,9 +85,13 @@ class Scene:
         self.layout, self.ids, self.wall_states = layout, ids, wall_states
         self.cell = present_cell()
 
+    def walls(self):
+        """Their ids."""
+        return [wall['key'] for wall in self.layout['walls']]
+
     def members(self):
         """The ids of bodies and walls."""
-        return self.ids + [wall['key'] for wall in self.layout['walls']]
+        return self.ids + self.walls()
 
     def changed(self):
         """Whether the cell is another one, or a wall is free; the engine looks at the bodies themselves."""

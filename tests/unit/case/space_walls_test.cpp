@@ -30,9 +30,10 @@ contact: {friction: 0.3}
     void walls(const std::string& rows, const std::string& header = all) const {
         folder.write("w.csv", header + "\n" + rows);
     }
-    std::string refusal_of(const std::string& row) const {
+    std::string refusal_of(const std::string& row,
+                           const std::vector<std::string>& overrides = {}) const {
         walls(row);
-        return refusal("");
+        return refusal("", overrides);
     }
 
     static constexpr const char* all =
@@ -112,8 +113,7 @@ TEST_F(SpaceWallsCase, EachFaultHasItsSentence) {
 
 /// The sphere at (10, 5, 10) of radius 0.5.
 TEST_F(SpaceWallsCase, GrainsThatAWallCutsAreRefused) {
-    walls("0,cylinder,10,0,10,0,10,0,,,,0.51,,,,,,,,\n");
-    EXPECT_EQ(refusal(""), "");
+    EXPECT_EQ(refusal_of("0,cylinder,10,0,10,0,10,0,,,,0.51,,,,,,,,\n"), "");
     EXPECT_SAYS(refusal_of("0,cylinder,10.1,0,10,0,10,0,,,,0.51,,,,,,,,\n"),
                 "wall 0 cuts grain 1 at (10, 5, 10) by 0.09 D");
     EXPECT_SAYS(refusal_of("0,ring,10,5.2,10,0,1,0,,,,0.4,3,,,,,,,\n"), "wall 0 cuts grain 1");
@@ -133,45 +133,37 @@ TEST_F(SpaceWallsCase, GrainsThatAnImageCutsAreRefused) {
         EXPECT_EQ(refusal(""), "") << row;
         EXPECT_SAYS(refusal("", cyclic), "wall 0 cuts grain 1 at (0.75, 5, 10) by 0.3 D");
     }
-    walls("0,plate,19,5.2,9,0.5,0,0,0,0,2,,,,,,,,,\n");
-    EXPECT_EQ(refusal("", cyclic), "");
+    EXPECT_EQ(refusal_of("0,plate,19,5.2,9,0.5,0,0,0,0,2,,,,,,,,,\n", cyclic), "");
 }
 
 /// It would lie on its own images.
 TEST_F(SpaceWallsCase, AWallThatIsLongerThanTheBoxRepeatsIsRefused) {
-    walls("0,cylinder,10,0,0,0,0,21,,,,8,,,,,,,,\n");
-    EXPECT_EQ(refusal(""), "");
+    EXPECT_EQ(refusal_of("0,cylinder,10,0,0,0,0,21,,,,8,,,,,,,,\n"), "");
     const std::vector<std::string> cyclic = {"domain.front=cyclic", "domain.back=cyclic"};
     EXPECT_SAYS(refusal("", cyclic), "wall 0 is 21 D long along z");
-    walls("0,cylinder,10,0,0,0,0,20,,,,8,,,,,,,,\n");
-    EXPECT_EQ(refusal("", cyclic), "");
-    walls("0,cylinder,10,0,10,0,9,0,,,,10.1,,,,,,,,\n");
-    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 20.2 D long along z");
-    walls("0,plate,1,2,1,4,0,0,0,0,22,,,,,,,,,\n");
-    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 22 D long along z");
+    EXPECT_EQ(refusal_of("0,cylinder,10,0,0,0,0,20,,,,8,,,,,,,,\n", cyclic), "");
+    EXPECT_SAYS(refusal_of("0,cylinder,10,0,10,0,9,0,,,,10.1,,,,,,,,\n", cyclic),
+                "wall 0 is 20.2 D long along z");
+    EXPECT_SAYS(refusal_of("0,plate,1,2,1,4,0,0,0,0,22,,,,,,,,,\n", cyclic),
+                "wall 0 is 22 D long along z");
     // About x, y and its own axis.
-    walls("0,plate,2,3,10,0,24,0,2,0,0,,,,1,0,0,,,\n");
-    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 24 D long along z when it has turned");
-    walls("0,plate,2,3,10,0,24,0,2,0,0,,,,0,1,0,,,\n");
-    EXPECT_EQ(refusal("", cyclic), "");
-    walls("0,cylinder,10,0,0,0,0,20,,,,8,,,0,0,1,,,\n");
-    EXPECT_EQ(refusal("", cyclic), "");
+    EXPECT_SAYS(refusal_of("0,plate,2,3,10,0,24,0,2,0,0,,,,1,0,0,,,\n", cyclic),
+                "wall 0 is 24 D long along z when it has turned");
+    EXPECT_EQ(refusal_of("0,plate,2,3,10,0,24,0,2,0,0,,,,0,1,0,,,\n", cyclic), "");
+    EXPECT_EQ(refusal_of("0,cylinder,10,0,0,0,0,20,,,,8,,,0,0,1,,,\n", cyclic), "");
 }
 
 /// Two shells of neighbours would be one in the other; the ends of a thick wall meet those of its
 /// image.
 TEST_F(SpaceWallsCase, ThicknessCountsAcrossAWallAndNotAlongIt) {
     const std::vector<std::string> cyclic = {"domain.front=cyclic", "domain.back=cyclic"};
-    walls("0,cylinder,10,0,10,0,9,0,,,,9.9,,0.2,,,,,,\n");
-    EXPECT_EQ(refusal("", cyclic), "");
-    walls("0,cylinder,10,0,10,0,9,0,,,,9.9,,0.4,,,,,,\n");
-    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 20.2 D long along z");
-    walls("0,cylinder,10,0,0,0,0,20,,,,8,,0.4,,,,,,\n");
-    EXPECT_EQ(refusal("", cyclic), "");
-    walls("0,plate,1,2,0,4,0,0,0,0,20,,,0.4,,,,,,\n");
-    EXPECT_EQ(refusal("", cyclic), "");
-    walls("0,plate,1,2,5,4,0,0,0,2,0,,,20.5,,,,,,\n");
-    EXPECT_SAYS(refusal("", cyclic), "wall 0 is 20.5 D long along z");
+    EXPECT_EQ(refusal_of("0,cylinder,10,0,10,0,9,0,,,,9.9,,0.2,,,,,,\n", cyclic), "");
+    EXPECT_SAYS(refusal_of("0,cylinder,10,0,10,0,9,0,,,,9.9,,0.4,,,,,,\n", cyclic),
+                "wall 0 is 20.2 D long along z");
+    EXPECT_EQ(refusal_of("0,cylinder,10,0,0,0,0,20,,,,8,,0.4,,,,,,\n", cyclic), "");
+    EXPECT_EQ(refusal_of("0,plate,1,2,0,4,0,0,0,0,20,,,0.4,,,,,,\n", cyclic), "");
+    EXPECT_SAYS(refusal_of("0,plate,1,2,5,4,0,0,0,2,0,,,20.5,,,,,,\n", cyclic),
+                "wall 0 is 20.5 D long along z");
 }
 
 class CylinderCase : public CaseTest {
