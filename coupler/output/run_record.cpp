@@ -78,12 +78,21 @@ nlohmann::ordered_json warning_list(const std::vector<RunWarning>& warnings) {
     return list;
 }
 
-/// The last of the parts of a run, if `turbidite` keeps a list of them.
-void end_part(nlohmann::ordered_json& record, const RunStatus& status) {
-    if (!record.contains("parts") || record["parts"].empty()) return;
-    auto& part = record["parts"].back();
-    part["windows_done"] = status.statistics.windows_done;
-    part["status"] = status_word(status.code);
+/// Of the parts before the last one, which `turbidite` notes in its list of parts.
+std::int64_t windows_before(const nlohmann::ordered_json& record) {
+    const auto parts = record.find("parts");
+    if (parts == record.end() || parts->empty()) return 0;
+    return parts->back().value("from_window", std::int64_t{0});
+}
+
+void write_progress(nlohmann::ordered_json& record, const RunStatus& status) {
+    const RunStatistics& statistics = status.statistics;
+    record["windows_done"] = statistics.windows_done;
+    if (record.contains("parts") && !record["parts"].empty())
+        record["parts"].back()["windows_done"] = statistics.windows_done;
+    record["warnings"] = warning_list(status.warnings);
+    record["maxima"] = maxima_table(statistics.maxima);
+    if (!statistics.contact_residuals.empty()) record["contact"] = contact_table(statistics);
 }
 
 }  // namespace
@@ -104,15 +113,17 @@ void write_run_record(const std::filesystem::path& file, const RunStatus& status
     record["status"] = status_word(status.code);
     record["exit_code"] = static_cast<int>(status.code);
     record["error"] = status.reason;
-    record["windows_done"] = status.statistics.windows_done;
     record["wall_seconds"] = status.wall_seconds;
     record["checkpoints"] = {{"written", status.checkpoints.written},
                              {"seconds", status.checkpoints.seconds}};
-    end_part(record, status);
-    record["warnings"] = warning_list(status.warnings);
-    record["maxima"] = maxima_table(status.statistics.maxima);
-    if (!status.statistics.contact_residuals.empty())
-        record["contact"] = contact_table(status.statistics);
+    if (record.contains("parts") && !record["parts"].empty())
+        record["parts"].back()["status"] = status_word(status.code);
+    // A part that ends before it has read its checkpoint knows nothing of the windows before it.
+    const std::int64_t before = windows_before(record);
+    if (status.statistics.windows_done >= before)
+        write_progress(record, status);
+    else
+        record["windows_done"] = before;
     record["ranks"] = rank_table(ranks);
     // Paths need not be UTF-8.
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
