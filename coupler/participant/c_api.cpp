@@ -39,6 +39,14 @@ struct Failing {
 };
 thread_local Failing failing;  // of the present call
 
+/// What turbidite_fail was told since `failing` was last cleared.
+void throw_failure() {
+    if (failing.text.empty()) return;
+    const Failing told = std::exchange(failing, {});
+    if (told.unphysical) throw PhysicsRefused(told.text);
+    throw Failure(ExitCode::participant_failed, told.text);
+}
+
 template <class From, class To>
 void copy(const From& from, To& to) {
     std::copy(std::begin(from), std::end(from), std::begin(to));
@@ -204,6 +212,7 @@ class CAdapter final : public GrainsAdapter {
     Hello describe() const override {
         // Not in the constructor: here the coupler hears of it, and ends the run for all.
         if (!refusal_.empty()) throw Failure(ExitCode::handshake_refused, refusal_);
+        throw_failure();  // in `joined`, or before the program took part
         Hello hello;
         hello.adapter = text(c_.name);
         hello.adapter_version = text(c_.version);
@@ -266,8 +275,7 @@ class CAdapter final : public GrainsAdapter {
         const int status = function(c_.self, arguments...);
         // turbidite_fail counts whatever the function returns; a look-up that failed counts like
         // it.
-        if (failing.unphysical) throw PhysicsRefused(failing.text);
-        if (!failing.text.empty()) throw std::runtime_error(failing.text);
+        throw_failure();
         if (status != 0)
             throw std::runtime_error(std::string(name) + " returned " + std::to_string(status) +
                                      " without turbidite_fail");

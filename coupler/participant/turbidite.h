@@ -225,7 +225,8 @@ typedef struct {
 } turbidite_adapter;
 
 /** The text of the failure of the present call, which fails whatever it returns. `unphysical`, if
- * not 0: exit code 6 instead of 4. */
+ * not 0: exit code 6 instead of 4. In `joined`, and before turbidite_run_grains(), it ends the run
+ * before it begins. */
 void turbidite_fail(const char* text, int unphysical);
 
 /** The whole life of the program. MPI_Init and MPI_Finalize are included, unless MPI runs already.

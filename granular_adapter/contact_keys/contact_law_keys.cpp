@@ -63,14 +63,6 @@ std::string without_restitution(const Settings& s) {
     return "without a restitution";
 }
 
-void law_notes(const Settings& s, std::vector<std::string>& notes) {
-    if (s.text("contact.impact") == "newton" && s.real("contact.restitution") > 0.0 &&
-        s.real("contact.friction") > 0.0)
-        notes.push_back(
-            "contact.impact: newton with friction may create energy where several contacts of a "
-            "grain have impacts at once; contact.impact: moreau never does");
-}
-
 }  // namespace
 
 bool shape_is_round(const Settings& s) {
@@ -160,8 +152,7 @@ KeyGroup contact_law_keys() {
                           .fallback = "0",
                           .range = not_negative,
                           .help = "resistance to a spin about the normal, over R r_n, as "
-                                  "contact.rolling_friction to rolling",
-                          .contacts = Contacts::rigid}),
+                                  "contact.rolling_friction to rolling"}),
                 {.name = "contact.adhesion",
                  .type = KeyType::choice,
                  .fallback = "none",
@@ -210,13 +201,11 @@ KeyGroup contact_law_keys() {
                      [](const Settings& s) { return is(s, "contact.adhesion", "cohesion"); },
                  .idle = without_bonds},
             },
-        .rules = {{"contact.static_friction", {"contact.friction"}, sliding_holds_less},
-                  {"contact.impact",
-                   {"contact.restitution_tangential"},
-                   moreau_has_one_restitution},
-                  {"grains.shape", {"contact.rolling_friction"}, only_discs_resist_rolling},
-                  {"contact.adhesion_range", {"contact.adhesion"}, range_of_neighbours}},
-        .notes = law_notes};
+        .rules = {
+            {"contact.static_friction", {"contact.friction"}, sliding_holds_less},
+            {"contact.impact", {"contact.restitution_tangential"}, moreau_has_one_restitution},
+            {"grains.shape", {"contact.rolling_friction"}, only_discs_resist_rolling},
+            {"contact.adhesion_range", {"contact.adhesion"}, range_of_neighbours}}};
 }
 
 }  // namespace turbidite

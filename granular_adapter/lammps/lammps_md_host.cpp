@@ -66,13 +66,12 @@ void LammpsMdHost::create(const Settings& settings, const ShapeTable&, const nsc
     declare_properties(*lammps_, run.dimension);
     grains_->create(bodies, *classes_, ranks_.communicator);
     start_engines();
+    follow_grains();
 }
 
-/// Grains may arrive here from other ranks.
 void LammpsMdHost::start_engines() {
     declare_engines(*lammps_, {*law_, *classes_, borders_, skin_, grains_->in_space()});
     lammps_set_fix_external_callback(lammps_->handle(), loads_fix, on_substep, this);
-    follow_grains();
 }
 
 void LammpsMdHost::read(nscd::Bodies& bodies) const {
@@ -215,9 +214,21 @@ void LammpsMdHost::keep(const std::vector<std::uint8_t>& mask) {
         if (mask[place]) stays.push_back({ranks_.own, int(place)});
     // LAMMPS deletes grains in a command of all ranks, which needs the same list everywhere.
     const std::vector<std::int64_t> gone = gather_all(mine, ranks_.communicator);
+    migrated_ = false;
     if (gone.empty()) return;
     grains_->remove(gone);
     grains_->number(stays, ranks_.own);
+    find_neighbours();
+}
+
+/// A run of no sub-steps, in which grains may arrive here from other ranks. Between runs LAMMPS
+/// keeps the springs with the grains; to write a restart file it takes them from the list of
+/// neighbours of the last run, which after a removal is that of other grains, and after a restart
+/// is not there.
+void LammpsMdHost::find_neighbours() {
+    present_ = {lammps_->step(), lammps_->step()};
+    lammps_->command("run 0 post no");
+    follow_grains();
 }
 
 // ---- state -----------------------------------------------------------------------------------
@@ -240,6 +251,7 @@ void LammpsMdHost::restore(const SavedState& state) {
     // A restart file has atoms and their values, not the commands of the scene.
     declare_properties(*lammps_, grains_->in_space() ? 3 : 2);
     start_engines();
+    find_neighbours();
 }
 
 }  // namespace turbidite::lammps

@@ -70,6 +70,7 @@ class LammpsMdHost final : public MdHost {
     void add_loads(double weight_of_forces, bool begins);
     void probe();
     void follow_grains();
+    void find_neighbours();
     void collect_impulses(SubstepReport& report) const;
 
     Ranks ranks_;

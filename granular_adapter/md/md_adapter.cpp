@@ -270,9 +270,11 @@ void MdAdapter::take_kicks(const Window& window, const std::vector<Kick>& kicks)
             // must be that of t^n turned by dt omega^{n+1}.
             bodies_.orientation[i] = rotated(present_.orientation_at_start[i], lag * now.spin);
         }
-        // The multiplier impulse of this window is J_h of the next.
-        if (hold_)
-            held_[i] = {ordered[i]->multiplier_impulse, ordered[i]->multiplier_angular_impulse};
+        // The multiplier impulse of this window is J_h of the next, in place of what the last of
+        // its repetitions has held.
+        held_[i] =
+            hold_ ? Held{ordered[i]->multiplier_impulse, ordered[i]->multiplier_angular_impulse}
+                  : Held{};
     }
     host_.write(bodies_);
 }
@@ -294,6 +296,7 @@ void MdAdapter::remove_leavers() {
     if (present_.contacts) drop_contacts_of(host_.from_all_ranks(gone), *present_.contacts);
     bodies_.keep(stays);
     host_.keep(stays);
+    follow_migration(nullptr);
 }
 
 /// Bodies, with those at the protocol's positions if they are given, and what they hold, after the

@@ -86,9 +86,6 @@ class NscdAdapter final : public GrainsAdapter {
     std::vector<char> contact_memory() const { return engine().save_memory(); }
     void take_over_contacts(const std::vector<char>& bytes) { engine().restore_memory(bytes); }
 
-    /// Ids of the grains removed by the last apply_kick.
-    const std::vector<GrainId>& removed() const { return removed_.own; }
-
  private:
     enum class Positions { corrected, contact };
     struct Names {

@@ -139,6 +139,7 @@ class Scene:
 
     def save(self):
         """The whole simulation as bytes, contacts with their springs included."""
+        self.script.before_save()
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, 'scene.yade')
             O.save(file, quiet=True)
@@ -151,3 +152,4 @@ class Scene:
             with open(file, 'wb') as saved:
                 saved.write(bytes)
             O.load(file, quiet=True)
+        self.script.after_load()

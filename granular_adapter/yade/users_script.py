@@ -36,8 +36,17 @@ class NoScript:
     def expect_fewer(self, bodies):
         pass
 
+    def before_save(self):
+        pass
+
+    def after_load(self):
+        pass
+
 
 class Script:
+    # In O.tags, which a saved scene contains: places of the engines of the case among all of them.
+    PLACES = 'turbidite_engines'
+
     def __init__(self, file):
         self.file = file
         self.step, self.engines = O.dt, list(O.engines)
@@ -99,9 +108,12 @@ class Script:
         if O.dt != self.step:
             self._refuse(f'changed O.dt from {self.step} to {O.dt}', 'use time.step, or contact.md_substeps')
 
-    def _check_engines(self):
+    def _engine_places(self):
         present = list(O.engines)
-        places = [next((k for k, engine in enumerate(present) if engine is ours), None) for ours in self.engines]
+        return [next((k for k, engine in enumerate(present) if engine is ours), None) for ours in self.engines]
+
+    def _check_engines(self):
+        places = self._engine_places()
         for ours, place in zip(self.engines, places):
             name = f'{type(ours).__name__} {ours.label}'.strip()
             if place is None:
@@ -120,6 +132,18 @@ class Script:
         """Called when the coupling itself erases these bodies."""
         for i in bodies:
             del self.bodies[i]
+
+    def before_save(self):
+        """Called before the coupling saves the scene."""
+        self._check_engines()
+        O.tags[self.PLACES] = ' '.join(str(place) for place in self._engine_places())
+
+    def after_load(self):
+        """Called when the coupling has loaded a scene that it had saved: all of its objects are other ones."""
+        present = list(O.engines)
+        O.engines = present     # what has been set from Python is the same object when it is read again
+        self.engines = [present[int(place)] for place in O.tags[self.PLACES].split()]
+        self.bodies = {body.id: body for body in O.bodies}
 
     def _refuse(self, deed, remedy):
         raise Fault(f'grains.script: {self.file} {deed}, which belongs to the case; {remedy}')

@@ -138,17 +138,28 @@ Motion YadeAdapter::apply_kick(const Window& window, const std::vector<Kick>& ki
     return motion;
 }
 
-void YadeAdapter::erase_leavers(const std::vector<GrainId>& before) {
-    const std::vector<GrainId>& gone = engine_.removed();
-    if (gone.empty()) return;
+/// Erases the bodies of those grains in the scene that the engine does not have any more.
+void YadeAdapter::erase_leavers(const std::vector<GrainId>& in_scene) {
+    const std::vector<GrainId>& left = std::as_const(engine_).bodies().id;
+    if (left == in_scene) return;
     std::vector<std::uint8_t> mask;
-    for (const GrainId id : before)
-        mask.push_back(std::find(gone.begin(), gone.end(), id) == gone.end());
+    python::list gone;
+    // Grains keep their order.
+    std::size_t next = 0;
+    for (const GrainId id : in_scene) {
+        const bool stays = next < left.size() && left[next] == id;
+        mask.push_back(stays);
+        if (stays)
+            ++next;
+        else
+            gone.append(id);
+    }
+    if (next != left.size())
+        throw std::runtime_error("grain " + std::to_string(left[next]) +
+                                 " of the state is not in YADE's scene any more");
     // Before the scene erases them: states of erased bodies must not be written any more.
     exchange_.keep(mask);
-    python::list ids;
-    for (const GrainId id : gone) ids.append(id);
-    scene_.attr("erase")(ids);
+    scene_.attr("erase")(gone);
 }
 
 std::vector<char> YadeAdapter::contacts() {
@@ -161,7 +172,10 @@ SavedState YadeAdapter::save() const {
 }
 
 void YadeAdapter::restore(const SavedState& state) {
+    const std::vector<GrainId> before = std::as_const(engine_).bodies().id;
     engine_.restore(state);
+    // A run that goes on begins with all grains of its case; some may have left before the state.
+    erase_leavers(before);
     write_bodies();
 }
 

@@ -42,7 +42,7 @@ class YadeAdapter final : public GrainsAdapter {
  private:
     void begin_window(const Window& window);
     void write_bodies();
-    void erase_leavers(const std::vector<GrainId>& before);
+    void erase_leavers(const std::vector<GrainId>& in_scene);
 
     boost::python::object scene_;
     mutable NscdAdapter engine_;  ///< save() reads bodies into it, as the next window would

@@ -262,6 +262,14 @@ TEST_F(AdapterTest, AFaultOfADescriptionInPythonIsTold) {
                                        "    initialise = advance = apply_kick = None\n");
     EXPECT_EQ(answer.code, 1) << answer.out << answer.err;
     EXPECT_SAYS(answer.out, "dimensions = 3; allowed are (2,), (3,) and (2, 3)");
+    // Its shapes are not told any more: no reason to say that they do not fit.
+    const Answer nameless = judge_python("--dimension 3 --only 'falls freely'",
+                                         "    shapes, dimensions = ['sphere'], (3,)\n"
+                                         "    initialise = advance = apply_kick = None\n"
+                                         "del Mine.version\n");
+    EXPECT_EQ(nameless.code, 1) << nameless.out << nameless.err;
+    EXPECT_SAYS(nameless.out, "AttributeError: ");
+    EXPECT_SAYS(nameless.out, "'version'");
 }
 
 // sys.exit in a program in Python is told by the library, not by the program.

@@ -89,6 +89,14 @@ TEST_F(CInterface, AProgramSaysInWhichDimensionsItPlays) {
     EXPECT_SAYS(four.err, "turbidite_adapter.dimensions = 4; allowed are 2, 3");
 }
 
+// `joined` has no answer of its own.
+TEST_F(CInterface, AFailureAtJoiningEndsTheRun) {
+    compile(headers + "/other_sizes.c", "present", "other_sizes");
+    const Answer answer = run("other_sizes refuses-ranks");
+    EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "these ranks will not do");
+}
+
 // MPI_Init, the split and MPI_Finalize are the program's.
 TEST_F(CInterface, AProgramMayHaveAnMpiOfItsOwn) {
     compile(headers + "/other_sizes.c", "present", "other_sizes");

@@ -216,14 +216,15 @@ def _answer(state, motion):
 
 
 class _Calls:
-    """The functions of the struct. `fault`: what is wrong with the adapter's description of itself."""
+    """The functions of the struct."""
 
     def __init__(self, adapter):
-        self.adapter, self.fault = adapter, None
+        self.adapter = adapter
+
+    def joined(self, handle):
+        self.adapter.comm = MPI.Intracomm(MPI.Comm.f2py(handle))
 
     def initialise(self, settings, grains, count, answer):
-        if self.fault:
-            raise self.fault
         values = Settings((key.decode(errors='replace'), _library.turbidite_text(settings, key).decode(errors='replace'))
                           for key in _all(_library.turbidite_key, settings))
         shapes = [Shape(shape.kind.decode(), shape.vertices[:shape.count])
@@ -294,18 +295,10 @@ def _describe(adapter, struct):
 
 def _struct(adapter):
     struct, calls, types = _Adapter(), _Calls(adapter), dict(_Adapter._fields_)
-    try:
-        _describe(adapter, struct)
-    except Exception as error:      # who ended here would wait in MPI_Finalize for the others
-        calls.fault = error
-        struct.dimensions = _dimensions((2, 3))  # or another refusal would come before this one is told
+    _guarded(lambda: _describe(adapter, struct))(None)
     saves = hasattr(adapter, 'save') and hasattr(adapter, 'restore')
-    for name in ('initialise', 'advance', 'apply_kick') + (('save', 'restore') if saves else ()):
+    for name in ('joined', 'initialise', 'advance', 'apply_kick') + (('save', 'restore') if saves else ()):
         setattr(struct, name, types[name](_guarded(getattr(calls, name))))
-
-    def joined(_, handle):
-        adapter.comm = MPI.Intracomm(MPI.Comm.f2py(handle))
-    struct.joined = types['joined'](joined)
     return struct
 
 

@@ -37,15 +37,17 @@ std::string or_another_adapter(const std::string& remedy, bool (*able)(const Gra
 }
 
 /// What the program that moves the grains cannot do.
-std::vector<GrainRule> rules_of_adapter(const GrainsAdapter& adapter, const StartGrains& start,
+std::vector<GrainRule> rules_of_adapter(const GrainsAdapter& adapter, const Settings& settings,
                                         const GrainForms& forms) {
     std::vector<GrainRule> rules;
-    if (!start.source.lines.empty())  // generated grains have the shape of a key with its own rule
+    const auto moves = [&adapter](const std::string& kind) {
+        return std::find(adapter.shapes.begin(), adapter.shapes.end(), kind) !=
+               adapter.shapes.end();
+    };
+    if (moves(settings.text("grains.shape")))  // else the key's own rule has spoken
         rules.push_back(
-            {[&](const PlacedGrain& g) {
-                 const auto& kind = forms.forms[g.shape].record.kind;
-                 return std::find(adapter.shapes.begin(), adapter.shapes.end(), kind) ==
-                        adapter.shapes.end();
+            {[moves, &forms](const PlacedGrain& g) {
+                 return !moves(forms.forms[g.shape].record.kind);
              },
              [&](const PlacedGrain&) { return "its shape is not supported by " + adapter.name; },
              fmt::format("It supports: {}.", fmt::join(adapter.shapes, ", ")),
@@ -238,7 +240,7 @@ CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
     const auto add = [&rules](std::vector<GrainRule> more) {
         std::move(more.begin(), more.end(), std::back_inserter(rules));
     };
-    add(rules_of_adapter(adapter, start, forms));
+    add(rules_of_adapter(adapter, settings, forms));
     add(rules_of_contact(settings, forms));
     if (settings.flag("fluid.enabled")) {
         add(rules_of_fluid(settings));

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "coupler/hub/schemes/scheme.hpp"
+#include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/case/grains/soft_contact.hpp"
@@ -97,6 +98,13 @@ Ruling rolling_is_known(const Settings& s) {
     return unknown_to(s, "has no rolling resistance: 0", adheres_and_rolls, "Use 0");
 }
 
+Ruling torsion_is_known(const Settings& s) {
+    if (grains_adapter(s).adhesion_and_rolling || !s.has("contact.torsion_friction") ||
+        s.real("contact.torsion_friction") == 0.0)
+        return std::nullopt;
+    return unknown_to(s, "has no resistance to torsion: 0", adheres_and_rolls, "Use 0");
+}
+
 // Soft-sphere adapters do not support plates.
 Ruling walls_have_an_engine(const Settings& s) {
     if (grains_adapter(s).inner_walls) return std::nullopt;
@@ -176,9 +184,16 @@ Ruling repeats_on_one_rank(const Settings& s) {
 // Damped polygons at rest need more sub-steps than discs: docs/md.md has the measured speeds.
 constexpr double quiet_polygons = 20.0;
 
-void adapter_notes(const Settings& s, std::vector<std::string>& notes) {
-    if (grains_adapter(s).contacts != Contacts::springs) return;
-    if (!is(s, "grains.shape", "disc") && s.real("contact.md_substeps") < quiet_polygons)
+void impact_notes(const Settings& s, std::vector<std::string>& notes) {
+    if (s.text("contact.impact") == "newton" && s.real("contact.restitution") > 0.0 &&
+        s.real("contact.friction") > 0.0)
+        notes.push_back(
+            "contact.impact: newton with friction may create energy where several contacts of a "
+            "grain have impacts at once; contact.impact: moreau never does");
+}
+
+void spring_notes(const Settings& s, std::vector<std::string>& notes) {
+    if (!shape_is_round(s) && s.real("contact.md_substeps") < quiet_polygons)
         notes.push_back(
             fmt::format("contact.md_substeps = {}: polygons at rest keep moving a "
                         "little with fewer than {:g}",
@@ -188,6 +203,11 @@ void adapter_notes(const Settings& s, std::vector<std::string>& notes) {
         notes.push_back(fmt::format(
             "contact.restitution = {}: {} uses its smallest, {:.3f}, that of critical damping",
             s.text("contact.restitution"), s.text("grains.adapter"), least));
+}
+
+void adapter_notes(const Settings& s, std::vector<std::string>& notes) {
+    grains_adapter(s).contacts == Contacts::springs ? spring_notes(s, notes)
+                                                    : impact_notes(s, notes);
 }
 
 }  // namespace
@@ -233,7 +253,8 @@ KeyGroup adapter_keys() {
                    files_are_of_one_rank},
                   {"contact.law", {"grains.adapter"}, law_is_known},
                   {"contact.adhesion", {"grains.adapter"}, adhesion_is_known},
-                  {"contact.rolling_friction", {"grains.adapter"}, rolling_is_known}},
+                  {"contact.rolling_friction", {"grains.adapter"}, rolling_is_known},
+                  {"contact.torsion_friction", {"grains.adapter"}, torsion_is_known}},
         .notes = adapter_notes};
 }
 

@@ -20,6 +20,11 @@ static void joined(void* self, int communicator) {
     fflush(stdout);
 }
 
+static void refuse_ranks(void* self, int communicator) {
+    (void)self, (void)communicator;
+    turbidite_fail("these ranks will not do", 0);
+}
+
 static int run_with_own_mpi(adapter_of_tomorrow* mine, int* argc, char*** argv) {
     int world;
     MPI_Comm split;
@@ -45,5 +50,6 @@ int main(int argc, char** argv) {
     if (strcmp(argv[1], "too-small") == 0) size = 8;
     if (strcmp(argv[1], "both-dimensions") == 0) mine.known.dimensions = TURBIDITE_BOTH_DIMENSIONS;
     if (strcmp(argv[1], "four-dimensions") == 0) mine.known.dimensions = 4;
+    if (strcmp(argv[1], "refuses-ranks") == 0) mine.known.joined = refuse_ranks;
     return turbidite_run_grains_sized(&mine.known, size, &argc, &argv, argv[argc - 1]);
 }

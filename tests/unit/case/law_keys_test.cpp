@@ -126,6 +126,8 @@ TEST_F(LawKeys, WhatHasNoEffectIsNoted) {
     EXPECT_SAYS(notes({"contact.static_friction=0.5"}), "without contact.law: static-dynamic");
     EXPECT_EQ(notes({}).find("contact."), std::string::npos);
     EXPECT_SAYS(notes({"contact.restitution=0.5"}), "contact.impact: moreau never does");
+    EXPECT_EQ(notes({"contact.restitution=0.5", "grains.adapter=yade-md"}).find("moreau"),
+              std::string::npos);
     EXPECT_SAYS(notes({"contact.solver=central-path"}),
                 "contact.iterations = 2000 is used up by the initial sweeps");
     EXPECT_EQ(notes({"contact.solver=central-path", "contact.iterations=20000"}).find("contact."),

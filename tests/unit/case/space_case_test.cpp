@@ -286,6 +286,21 @@ TEST_F(SpaceCase, ExtraGrainsAreAddedToGeneratedOnes) {
     EXPECT_SAYS(refusal("", {"grains.extra_file=gone.csv"}), "There is no file");
 }
 
+// As of a file that describes all grains.
+TEST_F(PlaneCase, ExtraGrainsHaveShapesThatTheirProgramMoves) {
+    folder.write("more.csv", "id,x,y,shape\n1000,6,8,triangle\n");
+    const std::string extra = "grains.extra_file=more.csv";
+    EXPECT_EQ(refusal("", {extra, "grains.adapter=standalone-md"}), "");
+    EXPECT_SAYS(refusal("", {extra, "grains.adapter=lammps-md"}),
+                "grain 1000: its shape is not supported by lammps-md");
+}
+
+TEST_F(SpaceCase, SpringsHaveNoTorsion) {
+    EXPECT_EQ(refusal("", {"contact.torsion_friction=0.1"}), "");
+    EXPECT_SAYS(refusal("", {"contact.torsion_friction=0.1", "grains.adapter=standalone-md"}),
+                "has no resistance to torsion");
+}
+
 TEST_F(SpaceCase, TheForecastCountsSpheres) {
     const auto window = [&](const char* count) {
         return forecast_window(load("", {std::string("grains.count=") + count}), 64.0).grains;

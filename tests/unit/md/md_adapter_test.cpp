@@ -103,6 +103,24 @@ TEST_P(HeldOrNot, AGrainThatTouchesNothingMovesAsUnderTheContactEngine) {
     }
 }
 
+// A window that is repeated holds what brings the grain to the velocity that the fluid answered;
+// the next one holds the impulse of its kick, or nothing.
+TEST_P(HeldOrNot, ARepetitionLeavesNothingToTheNextWindow) {
+    Settings repeated = settings();
+    repeated.set("run.repeats_windows", true);
+    Single md(repeated);
+    const GrainState sent = md.adapter.advance(window(0), {}).grains[0];
+    FreeResponse answer;
+    answer.id = 7;
+    answer.velocity = sent.velocity + Vec3{0.25, 0.0, 0.0};
+    const GrainState again = md.adapter.advance(window(0), {answer}).grains[0];
+    EXPECT_GT(again.announced_impulse[0], 0.05);
+    const Kick kick = kick_of(7, again.velocity, 0.0, {0.5, 0.0, 0.0}, 0.0);
+    md.adapter.apply_kick(window(0), {kick});
+    const GrainState next = md.adapter.advance(window(1), {}).grains[0];
+    EXPECT_EQ(next.announced_impulse[0], GetParam() ? 0.5 : 0.0);
+}
+
 // M dU = J_c + J_h - weight dt, with J_c summed by the host, on the floor and in flight.
 TEST_P(HeldOrNot, MomentumBalances) {
     Settings with_radius = settings();
