@@ -51,7 +51,8 @@ double least_distance(const std::vector<Point2>& corners, const std::vector<Poin
 }
 
 double gap_to_disc(const std::vector<Point2>& corners, const PlacedOutline& disc) {
-    const double depth = separation(corners, {disc.centre});
+    // A plate has no inside: a point on its line, beyond its end, is on neither side of it.
+    const double depth = corners.size() == 2 ? infinite : separation(corners, {disc.centre});
     // Beyond a corner the line along a side is nearer than the polygon: hence the true distance
     // outside.
     return (depth > 0.0 ? least_distance(corners, {disc.centre}) : depth) - disc.radius;

@@ -196,6 +196,24 @@ double BoxOperators::flux_residual(double step, const double* p, const VelocityP
     return sum;
 }
 
+std::vector<int> BoxOperators::enclosed(const double* marks) {
+    std::vector<int> cells;
+    // Beyond a side lies the mirror image, or its negative where p is prescribed.
+    p_.begin(marks);
+    const int rows = layers_.in_space() ? 5 : 3;
+    for (int j = 0; j < layers_.ny; ++j)
+        for (int k = 0; k < layers_.nz; ++k) {
+            const double* row[5] = {p_.row(j - 1, k), p_.row(j, k), p_.row(j + 1, k)};
+            if (layers_.in_space()) row[3] = p_.row(j, k - 1), row[4] = p_.row(j, k + 1);
+            for (int i = 0; i < layers_.nx; ++i) {
+                bool all = row[1][i - 1] == 1.0 && row[1][i + 1] == 1.0;
+                for (int r = 0; r < rows; ++r) all &= row[r][i] == 1.0;
+                if (all) cells.push_back(static_cast<int>(layers_.row(j, k)) + i);
+            }
+        }
+    return cells;
+}
+
 /// out -= div of what remains of e, of layer j; layers in ascending order.
 void BoxOperators::add_divergence_of_excess(int j, const ExcessFlux& excess, double* out) {
     const int nx = layers_.nx;

@@ -87,6 +87,10 @@ class BoxOperators {
     /// The same of 1.
     double volume() const;
 
+    /// This rank's cells with 1 in them and in all cells beside them, those of other ranks
+    /// included; a side that prescribes no pressure counts as a 1. By every rank.
+    std::vector<int> enclosed(const double* marks);
+
     // By every rank; arrays of this rank's rows. A velocity has the values that sides prescribe, a
     // change of a velocity is zero there.
 

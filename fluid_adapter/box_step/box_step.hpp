@@ -97,6 +97,8 @@ class BoxStep {
     std::size_t cells() const { return layers_.cells(); }  ///< of this rank
 
     double viscosity() const { return fluid_.viscosity; }  ///< nu [m2/s]
+    /// No side fixes p: what flows in is what flows out.
+    bool is_closed() const { return fluid_.pressure.has_zero_mode(); }
     /// Of the cells that are not stretched [m2].
     double cell_area() const { return layers_.hx * fluid_.pressure.y.spacing; }
     /// The same, in the plane per unit length [m3].

@@ -2,10 +2,19 @@
 #include "fluid_adapter/coupled_step/rigid_pressure.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
 
 #include "fluid_adapter/box_step/row_work.hpp"
 
 namespace turbidite {
+namespace {
+
+// Of r dt, the part of its volume that a cell would gain in a window.
+constexpr double rounding = 1e-12;
+
+}  // namespace
 
 void RigidPressure::begin(Constraint& constraint, double dt, double k) {
     dt_ = dt;
@@ -16,6 +25,25 @@ void RigidPressure::begin(Constraint& constraint, double dt, double k) {
     constraint.clear_covered(w_.data());
     film_.begin(constraint.film_sides(), step_.layers(), step_.excess_pointers(), step_.viscosity(),
                 step_.cell_area(), dt);
+    find_enclosed(constraint);
+}
+
+/// Cells of which W G d and e are zero for any d.
+void RigidPressure::find_enclosed(Constraint& constraint) {
+    enclosed_.clear();
+    std::vector<double>& marks = residual();  // not in use yet
+    std::fill(marks.begin(), marks.end(), 0.0);
+    constraint.mark_driven(marks.data());
+    double driven = std::accumulate(marks.begin(), marks.end(), 0.0);
+    constraint.sum_over_ranks(&driven, 1);
+    has_driven_ = driven > 0.0;
+    if (!has_driven_) return;
+    enclosed_ = step_.operators().enclosed(marks.data());
+    // A film passes into a cell and out of it.
+    std::set<int> filmed;
+    for (const CellSide& side : constraint.film_sides()) filmed.insert(side.cell);
+    const auto passes = [&](int cell) { return filmed.count(cell) != 0; };
+    enclosed_.erase(std::remove_if(enclosed_.begin(), enclosed_.end(), passes), enclosed_.end());
 }
 
 IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
@@ -37,7 +65,31 @@ ResidualSquare RigidPressure::find_residual(BoxOperators& box, RigidGrains& grai
                                    residual().data());
     square.cells = box.volume();
     grains.sum_over_ranks(square.data(), ResidualSquare::count);
+    if (has_driven_) leave_out_enclosed(box, grains, square);
     return square;
+}
+
+/// In a box without a free side the other cells take what is left out, since r must sum to zero.
+void RigidPressure::leave_out_enclosed(BoxOperators& box, const RigidGrains& grains,
+                                       ResidualSquare& square) {
+    std::vector<double>& r = residual();
+    const BoxLayers& layers = step_.layers();
+    const auto volume = [&](int cell) {
+        return layers.heights.relative(cell / static_cast<int>(layers.layer()));
+    };
+    double sums[] = {0.0, 0.0, 0.0};  // cells that matter; r and volume of the enclosed
+    for (const int cell : enclosed_) {
+        sums[0] += std::abs(r[cell]) * dt_ > rounding ? 1.0 : 0.0;
+        sums[1] += volume(cell) * r[cell];
+        sums[2] += volume(cell);
+    }
+    grains.sum_over_ranks(sums, 3);
+    if (sums[0] == 0.0) return;
+    const double share = step_.is_closed() ? sums[1] / (square.cells - sums[2]) : 0.0;
+    for (double& value : r) value += share;
+    for (const int cell : enclosed_) r[cell] = 0.0;
+    square.sum = box.dot(r, r);
+    grains.sum_over_ranks(&square.sum, 1);
 }
 
 /// z = -(1/dt) laplacian^-1 r, left in the solver; returns r.z.

@@ -7,7 +7,12 @@
 //
 // by conjugate gradients on p from an earlier one: residual r = -(D u + div e), preconditioned by
 // the fluid's own pressure solve -(1/dt) laplacian^-1, which is exact without grains. The operator
-// dt (smoothing - D W G) is symmetric and not negative. p and e are the step's. Valid C++17.
+// dt (smoothing - D W G) is symmetric and not negative. p and e are the step's.
+//
+// A cell whose neighbours are all those of bodies of prescribed motion, or beyond a side, keeps its
+// D u whatever p is. That is not zero where a body lies on an inflow, or moves off a side or
+// another such body: there nothing is asked. Liquid enters a gap when a cell of it is free.
+// Valid C++17.
 #pragma once
 
 #include "fluid_adapter/box_step/box_step.hpp"
@@ -33,6 +38,8 @@ class RigidPressure {
     void end(BoxOperators& box) { box.update_excess(dt_, step_.pressure(), excess()); }
 
  private:
+    void find_enclosed(Constraint& constraint);
+    void leave_out_enclosed(BoxOperators& box, const RigidGrains& grains, ResidualSquare& square);
     ResidualSquare find_residual(BoxOperators& box, RigidGrains& grains);
     double precondition(const RigidGrains& grains);
     void choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz,
@@ -49,6 +56,8 @@ class RigidPressure {
     double dt_ = 0.0;
     WedgeFlow film_;
     std::vector<double> w_, image_;      // w of box_operators.hpp
+    bool has_driven_ = false;            // some body's motion is prescribed, on any rank
+    std::vector<int> enclosed_;          // cells whose div u + div e no pressure changes
     const double* direction_ = nullptr;  // z itself if there is but one iteration, or later()
 };
 

@@ -82,6 +82,9 @@ class Constraint {
     /// Sets the values of this rank's cells that are part of grains to zero.
     virtual void clear_covered(double* values) const = 0;
 
+    /// Sets the values of this rank's cells that are part of bodies of prescribed motion to one.
+    virtual void mark_driven(double* values) const = 0;
+
     /// Faces between cells of grains that touch on the mesh, or touch a wall, which are to carry a
     /// film of liquid (box_step/wedge_flow.hpp), from both cells as far as they are this rank's. In
     /// the plane none: there pores between grains that touch are closed.

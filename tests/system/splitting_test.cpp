@@ -35,6 +35,18 @@ time: {step: 0.00625, end: 2.5}
 output: {interval: 2.5}
 )";
 
+/// A plate lies on an inflow, where no pressure stops what flows into it; probes beside it and
+/// behind it.
+const char* const plate_on_an_inflow = R"(
+domain:
+  {size: [8, 4], left: inflow, left_motion: jet, right: free, bottom: wall, top: wall, walls_file: walls.csv,
+   motions: {jet: {kind: table, table: [0, 0, 0, 100, 100, 0]}}}
+grains: {adapter: standalone-nscd, file: disc.csv}
+fluid: {reynolds: 50, cells_per_diameter: 8}
+time: {step: 0.01, end: 1}
+output: {interval: 0.5, probes: [3, 2.6, 4, 2]}
+)";
+
 class Splitting : public ShellTest {
  protected:
     Columns play(const std::string& changes, const char* text_of_case = column) {
@@ -107,6 +119,21 @@ TEST_F(Splitting, SteadyFlowPastGrainsDoesNotDependOnTheStep) {
 /// Also with rows that are stretched above the column, 83 of them, of which the lower rank has 29.
 /// The round-off by which two ranks differ decides where a contact solve stops, so that histories
 /// agree to contact.tolerance (with the default to 1e-3 of the speed).
+TEST_F(Splitting, WhatFlowsIntoAPlateBuildsUpNoPressure) {
+    scratch.write("disc.csv", "id,x,y,motion\n1,6,3.2,fixed\n");
+    scratch.write("walls.csv", "id,x1,y1,x2,y2,thickness\n1,0,2,2,2,0.5\n");
+    // A pressure that does not know the plate does not meet the difficulty.
+    play("fluid.splitting=marchuk-yanenko", plate_on_an_inflow);
+    const Columns expected = columns_of(text(run_folder() / "probes.csv"));
+    EXPECT_GT(expected.at("pressure_1").back(), 0.5);
+    for (const char* splitting : {"explicit-multiplier", "implicit-multiplier"}) {
+        play(std::string("fluid.splitting=") + splitting, plate_on_an_inflow);
+        const Columns found = columns_of(text(run_folder() / "probes.csv"));
+        for (const char* of : {"pressure_1", "pressure_2", "velocity_x_1", "velocity_x_2"})
+            EXPECT_NEAR(found.at(of).back(), expected.at(of).back(), 0.12) << splitting << of;
+    }
+}
+
 TEST_F(Splitting, TwoRanksGiveTheHistoryOfOne) {
     const std::string stretched =
         " --set domain.size=[14,14] --set fluid.stretch_ratio=1.05 --set fluid.stretch_from=7";

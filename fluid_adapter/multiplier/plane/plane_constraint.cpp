@@ -70,6 +70,13 @@ void PlaneConstraint::clear_covered(double* values) const {
     for (const InteriorCell& inside : points_.interior) values[inside.cell] = 0.0;
 }
 
+void PlaneConstraint::mark_driven(double* values) const {
+    for (std::size_t g = 0; g < grains_->size(); ++g)
+        for (int i = points_.interior_begin[g];
+             (*grains_)[g].prescribed && i < points_.interior_begin[g + 1]; ++i)
+            values[points_.interior[i].cell] = 1.0;
+}
+
 MultiplierResult PlaneConstraint::make_rigid(const VelocityPointers& change, double reduction,
                                              GrainChange& of_grains) {
     MultiplierSettings settings = settings_;

@@ -273,6 +273,13 @@ void InteriorConstraint::clear_covered(double* values) const {
         for (const CellRun& run : cells_.runs(g)) std::fill_n(values + run.cell, run.count, 0.0);
 }
 
+void InteriorConstraint::mark_driven(double* values) const {
+    for (std::size_t g = 0; g < grains_->size(); ++g)
+        if ((*grains_)[g].prescribed)
+            for (const CellRun& run : cells_.runs(g))
+                std::fill_n(values + run.cell, run.count, 1.0);
+}
+
 /// What it does to grains: motions, then impulses.
 MultiplierResult InteriorConstraint::make_rigid(const VelocityPointers& change, double,
                                                 GrainChange& of_grains) {

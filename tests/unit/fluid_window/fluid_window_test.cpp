@@ -245,6 +245,30 @@ TEST(FluidWindow, ASteadyStreamDoesNotDependOnTheStep) {
     }
 }
 
+/// A gate of 4 cells that leaves the floor: the cells between it and the floor are its own, and no
+/// pressure can fill them before there is a cell of fluid.
+TEST_P(EverySplitting, AGateLeavesTheFloor) {
+    constexpr double up = 0.5;
+    WatchedStore store(cells, edge, 0.01, corrects(GetParam()));
+    Settings with_gate = settings(GetParam());
+    // Its lower end is the middle of the half disc that ends it.
+    with_gate.set("run.walls", std::string("4 3 0 3 3 0 0.5 0 0 0 0 0.5"));
+    FluidWindow window(store, with_gate, {{"disc", {}}});
+    FluidReport report;
+    double fastest = 0.0;
+    for (int index = 0; index < 40; ++index) {
+        window.advance(window_at(index));
+        window.correct({});
+        report = window.impose().report;
+        for (int axis = 0; axis < 2; ++axis)
+            for (int c = 0; c < cells * cells; ++c)
+                fastest = std::max(fastest, std::abs(store.field().velocity(axis)[c]));
+        ASSERT_LT(fastest, 20.0 * up) << "window " << index;
+    }
+    EXPECT_GE(fastest, up);
+    EXPECT_LT(report.momentum_defect, 1e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(, EverySplitting,
                          testing::Values("marchuk-yanenko", "explicit-multiplier",
                                          "implicit-multiplier"),

@@ -34,6 +34,14 @@ TEST(SurfaceGap, OfSquareAndDisc) {
     EXPECT_NEAR(surface_gap({{0, 0}, 0.5, {}}, {{1.2, 1.6}, 1.0, {}}), 0.5, 1e-15);
 }
 
+TEST(SurfaceGap, OfPlateAndWhatLiesOnItsLine) {
+    const PlacedOutline plate{{1.0, 2.0}, 1.0, {{0.0, 2.0}, {2.0, 2.0}}};
+    EXPECT_NEAR(surface_gap(plate, {{6.0, 2.0}, 0.5, {}}), 3.5, 1e-15);
+    EXPECT_NEAR(surface_gap({{-1.0, 2.0}, 0.5, {}}, plate), 0.5, 1e-15);
+    EXPECT_NEAR(surface_gap(plate, {{1.5, 2.0}, 0.5, {}}), -0.5, 1e-15);  // cut in the middle
+    EXPECT_NEAR(surface_gap(plate, unit_square(3.0, 2.0)), 0.5, 1e-15);
+}
+
 TEST(SurfaceGap, ReachFollowsTheAngle) {
     const auto flat = reach(unit_square(3, 4));
     for (const double r : flat) EXPECT_NEAR(r, 0.5, 1e-15);
