@@ -231,6 +231,20 @@ class Waves(unittest.TestCase):
         self.assertIsNone(waves.largest_crest(self.shots(self.thick(12, 4, 8, steep=1.0))))
         self.assertIsNone(waves.largest_crest(with_snapshots(run())))
 
+    def test_what_lies_at_rest_is_no_wave(self):
+        data = self.shots(self.thick(12, 4, 0), self.thick(8, 4, 6), self.thick(12, 4, 8))
+        for end, crest in ((0.02, 1.0), (0.005, 0.5)):
+            data.history = {'time': np.arange(3.0), 'mean_speed': np.array([0.5, 1.0, end])}
+            data.measured.pop('analysis.phases.phases', None)
+            self.assertEqual(waves.largest_crest(data), crest)
+
+    def test_a_trough_before_the_horizontal_phase_is_no_wave(self):
+        """A block slides along the floor, its upper half flows down over the rest, then all flow on."""
+        heap = self.thick(12, 4, 0)
+        heap.velocities = np.array(8 * [[0.0, 0.0]] + 8 * [[1.0, -1.0]])
+        data = self.shots(self.thick(12, 4, 8), heap, self.thick(8, 4, 6))
+        self.assertEqual(waves.largest_crest(data), 0.5)
+
 
 class PhasesOfACollapse(unittest.TestCase):
     def column(self, *velocities):
@@ -252,6 +266,23 @@ class PhasesOfACollapse(unittest.TestCase):
         self.assertAlmostEqual(found.heap.moving, 45.0)
         self.assertAlmostEqual(found.heap.resting, 0.5)
         self.assertAlmostEqual(found.flat.moving, np.degrees(np.arctan(0.1)))
+
+    def test_what_creeps_in_a_heap_at_rest_is_in_no_phase(self):
+        creep = 0.001 * np.array(self.fall)
+        data = self.column(self.heap, self.flat, creep)
+        self.assertEqual(phases.phases(data).fall.time, 3.0, 'without a history nobody knows that it rests')
+        data = self.column(self.heap, self.flat, creep)
+        data.history = {'time': np.arange(4.0), 'mean_speed': np.array([0.0, 1.0, 1.0, 0.001])}
+        found = phases.phases(data)
+        self.assertIsNone(found.fall)
+        self.assertEqual((found.heap.time, found.flat.time), (1.0, 2.0))
+
+    def test_a_heap_that_flows_on_horizontally_comes_first(self):
+        later = 6 * [(0, 0)] + 2 * [(1, -1)]  # more of it rests
+        found = phases.phases(self.column(self.fall, self.heap, self.flat, later))
+        self.assertEqual((found.heap.time, found.flat.time), (2.0, 3.0))
+        found = phases.phases(self.column(self.fall, self.heap, later))
+        self.assertEqual((found.heap.time, found.flat), (3.0, None))
 
     def test_grains_that_have_left_have_no_direction(self):
         data = self.column(self.fall)
