@@ -442,6 +442,22 @@ class WrittenProbes(RunFolderTest):
         self.assertEqual(found.places.tolist(), [[1, 2, 3], [4, 5, 6]])
         self.assertEqual(found.names, ['(1, 2, 3) D', '(4, 5, 6) D'])
 
+    def test_their_level_is_told_where_no_side_fixes_it(self):
+        self.write_all()
+        self.write('probes.csv', 'time,pressure_1,velocity_x_1,velocity_y_1\n0.5,1,0,0\n1,3,0,0\n')
+        probed = CASE.replace('grains:', 'output:\n  probes: [1, 2]  # D\ngrains:\n  density_ratio: 1.5')
+        for case, maps, told in ((probed, False, 'No side of the box fixes its level.'),
+                                 (probed, True, 'No side of the box fixes its level; maps are relative to the upper right'),
+                                 (probed.replace('left: wall', 'left: free'), True, '')):
+            self.write('case.yaml', case)
+            if maps:
+                self.write('fluid/1/p', 'format ascii;\ninternalField uniform 2;\n')
+            page = Page('title')
+            panels.add_pressure(page, run_data.load_run(self.folder))
+            text = ' '.join(page.parts).partition('<figcaption>')[2]
+            self.assertIn(told, text)
+            self.assertEqual('level' in text, bool(told))
+
     def test_damaged_ones_are_said(self):
         self.write_all()
         self.write('case.yaml', CASE.replace('grains:', 'output:\n  probes: [1, 2]\ngrains:\n  density_ratio: 1.5'))
