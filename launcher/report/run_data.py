@@ -31,6 +31,11 @@ class RunData:
         """D, u_c or t_c; 1 if it is not in run.json (non-physical cases)."""
         return float(self.record.get(name) or 1.0)
 
+    def given(self, key):
+        """The text of a key of the case; None if it has no value, which is written as ~."""
+        value = self.case.get(key)
+        return None if value in ('~', '') else value
+
     def in_space(self):
         return self.case.get('dimension') == '3'
 

@@ -82,7 +82,7 @@ def probes(run):
 
 def has_written_probes(run):
     """They are as the liquid has them, without a shift of the level."""
-    return (run.folder / 'probes.csv').exists() and run.case.get('output.probes', '~') not in ('~', '')
+    return (run.folder / 'probes.csv').exists() and run.given('output.probes') is not None
 
 
 def written_probes(run):

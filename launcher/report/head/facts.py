@@ -69,9 +69,8 @@ def differing_scales(runs):
 def units_in_words(run):
     """What the units of all numbers and curves are."""
     settling = 'that of settling (Topin 2011, Eq. 21)'
-    given = run.case.get('scales.velocity') is not None
     velocity = {'avalanche': '√(g D)', 'sedimentation': settling,
-                'physical': 'scales.velocity' if given else settling}.get(run.case.get('scales.kind'))
+                'physical': 'scales.velocity' if run.given('scales.velocity') else settling}.get(run.case.get('scales.kind'))
     return ('Units: D is the diameter of the grains, u_c the characteristic velocity' + (f', {velocity}' if velocity else '')
             + ', and t_c = D/u_c the time to move by D with it; ρ_s and ρ_f are the densities of grains and fluid, m is the '
             'mass of a grain, g gravity.')

@@ -225,7 +225,11 @@ class Slices(SpaceRun):
     def test_walls_inside_are_what_spheres_do_not_cover(self):
         self.z.covered[:, 2:4] = 1.0   # 1 D < x < 2 D, where two of the spheres' right halves are
         self.assertIsNone(slices.walls_share(self.run_data, self.z, self.grains()))
+        self.run_data.case['domain.walls_file'] = '~'
+        self.assertIsNone(slices.walls_share(self.run_data, self.z, self.grains()))
+        self.assertNotIn('walls', slices.caption(self.run_data, [(self.z, None)]))
         self.run_data.case['domain.walls_file'] = 'walls.csv'
+        self.assertIn('walls (grey)', slices.caption(self.run_data, [(self.z, None)]))
         np.testing.assert_allclose(slices.walls_share(self.run_data, self.z, None), self.z.covered)
         share = slices.walls_share(self.run_data, self.z, self.grains())
         self.assertEqual(share[1, 2], 0.0)    # (1.25, 0.75) D, beside a sphere's centre at (1, 0.5) D

@@ -100,7 +100,7 @@ class KeyNumbers(unittest.TestCase):
     def test_a_velocity_that_is_not_given_is_that_of_settling(self):
         given = {'scales.kind': 'physical', 'scales.velocity': '0.1'}
         self.assertIn('scales.velocity', facts.units_in_words(run_with(case=given)))
-        self.assertIn('settling', facts.units_in_words(run_with(case={**given, 'scales.velocity': None})))
+        self.assertIn('settling', facts.units_in_words(run_with(case={**given, 'scales.velocity': '~'})))
 
     def test_runs_with_other_scales_are_told_apart(self):
         one, other = [run_with(record={'D': 1e-3, 'u_c': u, 't_c': 1e-3 / u}) for u in (0.07, 0.05)]
