@@ -7,6 +7,7 @@ Everything is returned in the units of the run (see run.json: D, u_c, t_c). Miss
 """
 import csv
 import json
+import re
 import shlex
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass, field
@@ -139,16 +140,21 @@ def read_resolved_case(path):
     """The flat keys of a resolved case, which consists of two levels of plain `key: value` lines."""
     case, group = {}, ''
     for line in path.read_text().splitlines():
-        text = line.split('  #')[0].rstrip()
-        if not text or text.startswith('#'):
+        if not line.strip() or line.lstrip().startswith('#'):
             continue
-        key, _, value = text.strip().partition(':')
-        if not line.startswith(' ') and not value.strip():
+        key, _, text = line.strip().partition(':')
+        if not line.startswith(' ') and not text:
             group = key + '.'
         else:
-            name = (group if line.startswith(' ') else '') + key
-            case[name] = value.strip().strip('"')
+            case[(group if line.startswith(' ') else '') + key] = plain_value(text.strip())
     return case
+
+
+def plain_value(text):
+    """Without the comment after it; of a text in quotes what they enclose, without the backslash before each " and
+    backslash of it."""
+    quoted = re.match(r'"((?:[^"\\]|\\.)*)"', text)
+    return re.sub(r'\\(["\\])', r'\1', quoted.group(1)) if quoted else text.split('  #')[0].rstrip()
 
 
 def read_units(path):

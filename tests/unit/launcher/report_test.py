@@ -121,6 +121,13 @@ class Report(RunFolderTest):
         self.assertEqual(self.pictures(), ['concentration.png', 'concentration_profiles.png', 'sequence-0.png',
                                            'sequence-1.png', 'sequence.png'])  # of grains only
 
+    def test_texts_of_a_case_are_what_their_quotes_enclose(self):
+        for written, text in ((r'"\"my code\" --say \"a\""  # a command', '"my code" --say "a"'), (r'"C:\\"', 'C:\\'),
+                              ('"a  # b"', 'a  # b'), ('plain  # D', 'plain'), ('""', '')):
+            self.write('case.yaml', f'grains:\n  command: {written}\n  ranks: 2\n')
+            self.assertEqual(run_data.read_resolved_case(self.folder / 'case.yaml'),
+                             {'grains.command': text, 'grains.ranks': '2'})
+
     def test_empty_folder(self):
         page = self.make()
         for name in ('run.json', 'case.yaml', 'history.csv'):
