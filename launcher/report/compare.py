@@ -129,9 +129,11 @@ def measure(members):
 
 
 def parameters(members):
-    """(key, one value per member) of the keys in which the cases differ."""
-    keys = dict.fromkeys(key for member in members for key in member.data.case)
-    rows = [(key, [member.data.case.get(key, '') for member in members]) for key in keys]
+    """(key, one value per member) of the keys in which the cases differ, and of their files."""
+    cases = [{**member.data.case, **{f'{what}, fingerprint': text for what, text in member.data.files().items()}}
+             for member in members]
+    keys = dict.fromkeys(key for case in cases for key in case)
+    rows = [(key, [case.get(key, '') for case in cases]) for key in keys]
     return [(key, values) for key, values in rows if len(set(values)) > 1]
 
 

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 
+GRAINS = 'grains'  # in RunData.fingerprints
 BARE_FROM = 0.9  # of the width: grains that reach so far at first fill the box
 
 
@@ -27,6 +28,7 @@ class RunData:
     history: dict = None
     remarks: list = field(default_factory=list)
     measured: dict = field(default_factory=dict)  # analysis/once.py
+    fingerprints: dict = field(default_factory=dict)  # of the grains and of the files of the case, by what they hold
 
     def scale(self, name):
         """D, u_c or t_c; 1 if it is not in run.json (non-physical cases)."""
@@ -36,6 +38,12 @@ class RunData:
         """The text of a key of the case; None if it has no value, which is written as ~."""
         value = self.case.get(key)
         return None if value in ('~', '') else value
+
+    def files(self):
+        """The fingerprints of the files that the case names: walls, script, function objects, and grains unless they were
+        generated or poured, which is for the seed to say. The case has the names of copies, which are the same for all."""
+        named = self.given('grains.file') and self.case.get('grains.generator') != 'poured'
+        return {what: fingerprint for what, fingerprint in self.fingerprints.items() if named or what != GRAINS}
 
     def in_space(self):
         return self.case.get('dimension') == '3'
@@ -113,6 +121,7 @@ def load_run(folder):
     run = RunData(Path(folder))
     run.record = _optional(run, 'run.json', _read_json) or {}
     run.case = _optional(run, 'case.yaml', read_resolved_case) or {}
+    run.fingerprints = read_fingerprints(run.folder / 'case.yaml') if run.case else {}
     run.history = _optional(run, 'history.csv', read_history)
     if run.history is not None and len(run.history['time']) == 0:
         run.history = None
@@ -155,6 +164,12 @@ def plain_value(text):
     backslash of it."""
     quoted = re.match(r'"((?:[^"\\]|\\.)*)"', text)
     return re.sub(r'\\(["\\])', r'\1', quoted.group(1)) if quoted else text.split('  #')[0].rstrip()
+
+
+def read_fingerprints(path):
+    """{what: fingerprint} from the head of a resolved case, of the grains without their number."""
+    found = re.findall(r'^# (?:\d+ )?(.*), fingerprint ([0-9a-f]+)$', path.read_text(), re.MULTILINE)
+    return dict(found)
 
 
 def read_units(path):
