@@ -106,9 +106,7 @@ def add(page, run):
 def load(run, time, path):
     """(slice, grains or None); None if the file cannot be read, which is noted."""
     try:
-        found = read(time, path)
-        near = [(t, grains) for t, grains in grain_files.quiet_series(run) if abs(t - time) <= 1e-6 * abs(time)]
-        return found, grain_files.read_grains(*near[0]) if near else None
+        return read(time, path), grain_files.grains_at(run, time)
     except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:
         run.remarks.append(f'Slice at {time:g}: {error}')
         return None

@@ -57,6 +57,30 @@ def grain_file(ids, densities):
                      + array('velocity', forces) + array('force', forces) + array('density', densities, 1))
 
 
+class InTheLiquid(unittest.TestCase):
+    def test_a_grain_has_the_size_that_the_case_gives_it(self):
+        two = grains([2.0, 2.0], [0.5, 0.25])
+        self.assertEqual(solid.ratios_in_liquid(run(**{'fluid.hydrodynamic_radius': '0.8'}), two).tolist(), [0.8, 0.8])
+        space = {'fluid.hydrodynamic_radius': '0.8', 'fluid.surface_shift': '0.3', 'fluid.cells_per_diameter': '10'}
+        np.testing.assert_allclose(solid.ratios_in_liquid(run(space=True, **space), two), [0.8 + 0.06, 0.8 + 0.12])
+
+    def test_gyration(self):
+        square = np.array([[1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0]])
+        two = grains([2.0, 2.0], [0.5, 1.0], {1: square})
+        two.centres[1] = (1.5, 0.5)
+        np.testing.assert_allclose(solid.square_gyrations(run(), two), [0.125, 1.0 / 6.0])
+        np.testing.assert_allclose(solid.square_gyrations(run(space=True), grains([2.0])), [0.1])
+
+    def test_cells_of_a_grain_are_no_motion_of_the_liquid(self):
+        """V/2 (U^2 + k^2 w^2) of a body of 0.8 R, a disc of 0.4 D in the plane and a ball in space."""
+        case = {'fluid.hydrodynamic_radius': '0.8', 'fluid.cells_per_diameter': '10'}
+        one = grains([7.0])
+        one.velocities, one.velocity_z, one.spins = np.array([[3.0, 4.0]]), np.zeros(1), np.array([[0.0, 0.0, 5.0]])
+        self.assertAlmostEqual(energy.in_grains(run(**case), one), 0.5 * np.pi * 0.4**2 * (25 + 0.5 * 0.4**2 * 25))
+        self.assertAlmostEqual(energy.in_grains(run(space=True, **case), one),
+                               0.5 * 4 / 3 * np.pi * 0.4**3 * (25 + 0.4 * 0.4**2 * 25))
+
+
 class WrittenGrains(RunFolderTest):
     """Grains of densities 2 and 4, of which the heavy one leaves; density_ratio of the case is 1.5."""
 
@@ -101,12 +125,17 @@ class WrittenGrains(RunFolderTest):
         self.assertAlmostEqual(energy.fall_of(self.run_data, last), 6.0 * 0.5)
 
     def test_the_energy_of_the_liquid_is_over_the_mass_of_the_grains(self):
-        self.run_data.history['kinetic_energy'] = np.array([0.0, 0.0])
         ours = energy.fluid_kinetic(self.run_data)[1]
         self.run_data.measured.clear()
         for k, densities in enumerate(([4.0, 8.0], [4.0])):
             self.write(f'grains/grains_{k:08d}.vtp', grain_file([4, 9][:2 - k], densities))
         np.testing.assert_allclose(energy.fluid_kinetic(self.run_data)[1], ours / 2.0)
+
+    def test_no_energy_is_left_where_only_the_cells_of_grains_move(self):
+        self.write('case.yaml', CASE.replace('fluid:', 'fluid:\n  hydrodynamic_radius: 0.8'))
+        # A disc of 0.4 D with 6 u_c in a box of 24 D2 has the energy of all cells with 6 sqrt(0.16 pi/24).
+        self.write('fluid/1/U', f'internalField uniform (0 {6.0 * np.sqrt(0.16 * np.pi / 24.0):.17g} 0);')
+        self.assertAlmostEqual(energy.fluid_kinetic(run_data.load_run(self.folder))[1][1], 0.0)
 
     def test_the_viscous_number_is_of_the_same_density(self):
         first, last = snapshots.snapshots(self.run_data)
