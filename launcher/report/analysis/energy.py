@@ -62,7 +62,7 @@ def budget(run):
 
 
 def drives_grains(run):
-    return any((one.velocities[~one.free()] != 0.0).any() for one in snapshots.snapshots(run))
+    return any((one.moving() & ~one.free()).any() for one in snapshots.snapshots(run))
 
 
 def changes(values):

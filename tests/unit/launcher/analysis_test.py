@@ -658,6 +658,9 @@ class Energies(unittest.TestCase):
         one.velocities[1] = 0.0
         one.prescribed = np.array([False, True])
         self.assertIsNotNone(energy.budget(with_snapshots(self.fall(), one)), 'a fixed one does no work')
+        for along_z, spin in ((0.5, 0.0), (0.0, -2.0)):
+            one.velocity_z, one.spins = np.array([1.0, along_z]), np.array([[0.0, 0.0, 3.0], [0.0, spin, 0.0]])
+            self.assertIsNone(energy.budget(with_snapshots(self.fall(), one)))
 
     def test_histories_without_works_have_none(self):
         self.assertIsNone(energy.budget(run(time=[0, 1], grains=[1, 1], kinetic_energy=[0, 1])))

@@ -54,7 +54,8 @@ def grain_file(ids, densities):
     places = np.column_stack([np.arange(count) + 0.5, np.full(count, 0.5), np.zeros(count)])
     forces = np.tile([0.0, 6.0, 0.0], (count, 1))
     return poly_data(places, '', array('id', np.array(ids), 1) + array('radius', np.full(count, 0.5), 1)
-                     + array('velocity', forces) + array('force', forces) + array('density', densities, 1))
+                     + array('velocity', forces) + array('angular_velocity', 2.0 * forces[:, [0, 2, 1]]) + array('force', forces)
+                     + array('density', densities, 1))
 
 
 class InTheLiquid(unittest.TestCase):
@@ -112,6 +113,9 @@ class WrittenGrains(RunFolderTest):
         file.write_text(file.read_text().replace('<PointData>', '<PointData>' + array('prescribed', np.array([0, 1]), 1)))
         self.assertEqual(snapshots.snapshots(run_data.load_run(self.folder))[0].prescribed_ids().tolist(), [9])
 
+    def test_spins_are_read(self):
+        self.assertEqual(snapshots.snapshots(self.run_data)[0].spins.tolist(), 2 * [[0.0, 0.0, 12.0]])
+
     def test_pressures_are_over_the_density_of_the_first_grains(self):
         self.assertAlmostEqual(pore_pressure.unit(self.run_data), 2.0)
         self.assertAlmostEqual(weight_balance.submerged_share(self.run_data), 2.0 / 3.0)
@@ -133,8 +137,9 @@ class WrittenGrains(RunFolderTest):
 
     def test_no_energy_is_left_where_only_the_cells_of_grains_move(self):
         self.write('case.yaml', CASE.replace('fluid:', 'fluid:\n  hydrodynamic_radius: 0.8'))
-        # A disc of 0.4 D with 6 u_c in a box of 24 D2 has the energy of all cells with 6 sqrt(0.16 pi/24).
-        self.write('fluid/1/U', f'internalField uniform (0 {6.0 * np.sqrt(0.16 * np.pi / 24.0):.17g} 0);')
+        # A disc of 0.4 D in 24 D2 with U = 6 u_c and w = 12/t_c has the energy of all cells with u^2 = share (U^2 + k^2 w^2).
+        square = 0.4**2 * np.pi / 24.0 * (6.0**2 + 0.5 * 0.4**2 * 12.0**2)
+        self.write('fluid/1/U', f'internalField uniform (0 {np.sqrt(square):.17g} 0);')
         self.assertAlmostEqual(energy.fluid_kinetic(run_data.load_run(self.folder))[1][1], 0.0)
 
     def test_the_viscous_number_is_of_the_same_density(self):
