@@ -87,8 +87,9 @@ class RunData:
         return self.case.get('grains.generator') == 'lattice' or self.is_avalanche()
 
     def has_springs(self):
-        """Contacts are springs in sub-steps of a window, not a problem that is solved."""
-        return self.case.get('grains.adapter', '').endswith('-md')
+        """Contacts are springs in sub-steps of a window, not a problem that is solved to a residual: also those of a code of
+        one's own."""
+        return len(self.column('contact_iterations')[1]) > 0 and len(self.column('contact_residual')[1]) == 0
 
     def command(self):
         """The command that made the run; empty for versions that did not record it."""
