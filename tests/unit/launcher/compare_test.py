@@ -176,6 +176,14 @@ class Compare(RunFolderTest):
         member = seeds.Member('one', data, [data])
         self.assertIsNone(compare.numbers(member, member, 'front_x')['end_value'])
 
+    def test_pores_are_areas_in_the_plane_and_volumes_in_space(self):
+        plane, space = [seeds.Member(name, run_data.RunData(name, case={'dimension': name}, history={
+            'time': np.arange(2.0), 'pore_volume': np.ones(2)})) for name in '23']
+        for members, unit, plain in (([plane], r'area $/\,D^2$', 'D^2'), ([space, space], r'volume $/\,D^3$', 'D^3'),
+                                     ([plane, space], r'area $/\,D^2$ or volume $/\,D^3$', 'D^2 or D^3')):
+            pores, = compare.quantities_of(members)
+            self.assertEqual((pores.unit, pores.plain_unit), (unit, plain))
+
     def test_seeds_are_averaged(self):
         for seed, scale in ((1, 1.0), (2, 2.0), (3, 3.0)):
             self.write_seed(f'dense-seed{seed}', seed, scale)
