@@ -724,6 +724,10 @@ class Concentrations(unittest.TestCase):
             shares = concentration.concentration(data).shares
             self.assertAlmostEqual(float(shares.sum()) * 4, solid)
         self.assertGreater(shares[0, 2], 0.0)
+        data = with_snapshots(run({'domain.size': '[4, 3]', 'domain.bottom': 'cyclic'}),
+                              *(snapshot([[1, y], [3, y]]) for y in (0.2, 0.2 + 4 * 3, 0.2 - 7 * 3)))
+        first, later, below_it = concentration.concentration(data).shares
+        np.testing.assert_allclose([later, below_it], [first, first])
 
     def test_shares_of_the_box(self):
         data = with_snapshots(run({'domain.size': '[4, 3]'}), snapshot([[1, 0.5], [3, 0.5]]))
