@@ -6,8 +6,9 @@ Per window the coupler adds up the works of contacts and of the liquid on the gr
     d(E_kin + E_pot) = W_contacts + W_fluid + (dt/2) sum (M - m_f) g dU_y
 
 The last term is that of grains that move with their new velocity; over any time it is at most (1 - rho_f/rho_s) g dt/2
-times the change of the mean vertical velocity, weighted by the submerged weights of the grains. What the liquid receives, -W_fluid, is its own kinetic energy (of the
-velocity fields, cells in grains taken off), and what viscosity dissipates or flows out of the box: the rest.
+times the change of the mean vertical velocity, weighted by the submerged weights of the grains. What the liquid receives,
+-W_fluid, is its own kinetic energy (of the velocity fields, cells in grains taken off), and what viscosity dissipates or
+flows out of the box: the rest.
 Energies over (sum of m) u_c^2.
 """
 from dataclasses import dataclass
