@@ -150,8 +150,8 @@ def packing(run):
 def solvers(run):
     """The checks over all windows, and the mean numbers of iterations."""
     text = []
-    defects = [(name, findings.largest(run, column, column)) for name, column in
-               (('grains', 'grain_balance'), ('fluid', 'fluid_balance'))]
+    balances = [('grains', 'grain_balance'), *([('fluid', 'fluid_balance')] if run.is_wet() else [])]
+    defects = [(name, findings.largest(run, column, column)) for name, column in balances]
     told = ', '.join(f'{name} {defect:.2g}' for name, defect in defects if defect is not None)
     if told:
         text.append(f'Largest momentum defect of any window (dotted): {told}.')

@@ -43,6 +43,7 @@ class Quantity:
 
 
 ITERATIONS = Quantity('contact_iterations', 'Contact solver', 'sweeps', 'sweeps')
+PORES = Quantity('pore_volume', 'Pores between the grains', r'area $/\,D^2$', 'D^2')
 QUANTITIES = [
     Quantity('mean_velocity_y', 'Mean vertical velocity', r'$\langle u_y \rangle\,/\,u_c$', 'u_c'),
     Quantity('mean_velocity_norm', 'Norm of the mean velocity', r'$|\langle u \rangle|\,/\,u_c$', 'u_c'),
@@ -51,7 +52,7 @@ QUANTITIES = [
     Quantity('kinetic_energy', 'Kinetic energy', r'energy $/\,(\Sigma m\,u_c^2)$', 'Σm u_c²'),
     Quantity('coordination', 'Coordination', 'contacts per grain', '-'),
     Quantity('fabric_anisotropy', 'Anisotropy of the contacts', 'fabric anisotropy', '-'),
-    Quantity('pore_volume', 'Pores between the grains', r'area $/\,D^2$', 'D^2'),
+    PORES,
     Quantity('max_penetration', 'Deepest overlap', r'overlap $/\,D$', 'D'),
     ITERATIONS,
     Quantity('contact_residual', 'Contact residual', 'scaled natural map', '-', logarithmic=True),
@@ -64,13 +65,24 @@ QUANTITIES = [
 
 
 def quantities_of(members):
-    """Those that some member has and that apply to one; springs have sub-steps instead of sweeps."""
-    shown = [q for q in QUANTITIES
-             if any(len(m.data.column(q.column)[1]) and q.applies(m.data) for m in members)]
-    springs = [m.data.has_springs() for m in members]
+    """Those that some member has and that apply to one, as they are called for these members."""
+    called = {ITERATIONS.column: iterations_of(members), PORES.column: pores_of(members)}
+    return [called.get(q.column, q) for q in QUANTITIES
+            if any(len(m.data.column(q.column)[1]) and q.applies(m.data) for m in members)]
+
+
+def iterations_of(members):
+    """Springs have sub-steps instead of sweeps."""
+    springs = [m.data.has_springs() for m in members if len(m.data.column(ITERATIONS.column)[1])]
     words = 'sub-steps' if all(springs) else 'sweeps or sub-steps' if any(springs) else 'sweeps'
     title = 'Springs' if all(springs) else 'Contact solver or springs' if any(springs) else 'Contact solver'
-    return [replace(q, title=title, unit=words, plain_unit=words) if q is ITERATIONS else q for q in shown]
+    return replace(ITERATIONS, title=title, unit=words, plain_unit=words)
+
+
+def pores_of(members):
+    """Areas in the plane, volumes in space."""
+    units = {m.data.solid_unit(): r'volume $/\,D^3$' if m.data.in_space() else PORES.unit for m in members}
+    return replace(PORES, unit=' or '.join(units.values()), plain_unit=' or '.join(units))
 
 
 @dataclass
@@ -129,9 +141,11 @@ def measure(members):
 
 
 def parameters(members):
-    """(key, one value per member) of the keys in which the cases differ."""
-    keys = dict.fromkeys(key for member in members for key in member.data.case)
-    rows = [(key, [member.data.case.get(key, '') for member in members]) for key in keys]
+    """(key, one value per member) of the keys in which the cases differ, and of their files."""
+    cases = [{**member.data.case, **{f'{what}, fingerprint': text for what, text in member.data.files().items()}}
+             for member in members]
+    keys = dict.fromkeys(key for case in cases for key in case)
+    rows = [(key, [case.get(key, '') for case in cases]) for key in keys]
     return [(key, values) for key, values in rows if len(set(values)) > 1]
 
 

@@ -26,6 +26,12 @@ def rest_time(run):
     return time[first] if first < len(time) else None
 
 
+def is_at_rest(run, time):
+    """Whether an output [t_c] is of grains at rest. Series of files tell their times with nine digits, rows with ten."""
+    since = rest_time(run)
+    return since is not None and time >= since * (1.0 - 1e-8)
+
+
 def half_fall(run):
     """When the mean height has gone half-way from its first to its last value [t_c]; None unless it falls."""
     time, height = run.column('mean_position_y')

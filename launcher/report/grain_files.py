@@ -21,6 +21,7 @@ class Grains:
     prescribed: np.ndarray = None  # (n,) bool
     z: np.ndarray = None           # (n,) of the centres; 0 in the plane
     velocity_z: np.ndarray = None  # (n,)
+    spins: np.ndarray = None       # (n, 3) angular velocities
 
     def speeds(self):
         if self.velocities is None:
@@ -47,6 +48,12 @@ def quiet_series(run):
     return grain_series(run) if (run.folder / 'grains' / 'grains.pvd').exists() else []
 
 
+def grains_at(run, time):
+    """The grains of the output at a time of another series; None without one."""
+    near = [output for output in quiet_series(run) if abs(output[0] - time) <= 1e-6 * abs(time)]
+    return read_grains(*near[0]) if near else None
+
+
 def series(index):
     """(time, path) of the first part of every output."""
     return [(float(entry.get('timestep')), index.parent / entry.get('file'))
@@ -67,6 +74,8 @@ def grains_of(time, path, arrays):
         grains.ids = arrays['id'].astype(np.int64)
     if 'velocity' in arrays:
         grains.velocities, grains.velocity_z = in_plane(arrays['velocity']), across(arrays['velocity'])
+    if 'angular_velocity' in arrays:
+        grains.spins = in_space(arrays['angular_velocity'])
     grains.densities = arrays.get('density')
     grains.prescribed = arrays['prescribed'] > 0 if 'prescribed' in arrays else None
     if 'force' in arrays:

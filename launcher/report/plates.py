@@ -62,7 +62,7 @@ def _numbers(wall, x, y):
 
 
 def _value(run, name, part, default='0'):
-    return run.case.get(f'domain.motions.{name}.{part}') or default
+    return run.given(f'domain.motions.{name}.{part}') or default
 
 
 def _pair(text):

@@ -7,6 +7,7 @@ Everything is returned in the units of the run (see run.json: D, u_c, t_c). Miss
 """
 import csv
 import json
+import re
 import shlex
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass, field
@@ -15,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 
+GRAINS = 'grains'  # in RunData.fingerprints
 BARE_FROM = 0.9  # of the width: grains that reach so far at first fill the box
 
 
@@ -26,10 +28,22 @@ class RunData:
     history: dict = None
     remarks: list = field(default_factory=list)
     measured: dict = field(default_factory=dict)  # analysis/once.py
+    fingerprints: dict = field(default_factory=dict)  # of the grains and of the files of the case, by what they hold
 
     def scale(self, name):
         """D, u_c or t_c; 1 if it is not in run.json (non-physical cases)."""
         return float(self.record.get(name) or 1.0)
+
+    def given(self, key):
+        """The text of a key of the case; None if it has no value, which is written as ~."""
+        value = self.case.get(key)
+        return None if value in ('~', '') else value
+
+    def files(self):
+        """The fingerprints of the files that the case names: walls, script, function objects, and grains unless they were
+        generated or poured, which is for the seed to say. The case has the names of copies, which are the same for all."""
+        named = self.given('grains.file') and self.case.get('grains.generator') != 'poured'
+        return {what: fingerprint for what, fingerprint in self.fingerprints.items() if named or what != GRAINS}
 
     def in_space(self):
         return self.case.get('dimension') == '3'
@@ -73,8 +87,9 @@ class RunData:
         return self.case.get('grains.generator') == 'lattice' or self.is_avalanche()
 
     def has_springs(self):
-        """Contacts are springs in sub-steps of a window, not a problem that is solved."""
-        return self.case.get('grains.adapter', '').endswith('-md')
+        """Contacts are springs in sub-steps of a window, not a problem that is solved to a residual: also those of a code of
+        one's own."""
+        return len(self.column('contact_iterations')[1]) > 0 and len(self.column('contact_residual')[1]) == 0
 
     def command(self):
         """The command that made the run; empty for versions that did not record it."""
@@ -107,6 +122,7 @@ def load_run(folder):
     run = RunData(Path(folder))
     run.record = _optional(run, 'run.json', _read_json) or {}
     run.case = _optional(run, 'case.yaml', read_resolved_case) or {}
+    run.fingerprints = read_fingerprints(run.folder / 'case.yaml') if run.case else {}
     run.history = _optional(run, 'history.csv', read_history)
     if run.history is not None and len(run.history['time']) == 0:
         run.history = None
@@ -134,16 +150,27 @@ def read_resolved_case(path):
     """The flat keys of a resolved case, which consists of two levels of plain `key: value` lines."""
     case, group = {}, ''
     for line in path.read_text().splitlines():
-        text = line.split('  #')[0].rstrip()
-        if not text or text.startswith('#'):
+        if not line.strip() or line.lstrip().startswith('#'):
             continue
-        key, _, value = text.strip().partition(':')
-        if not line.startswith(' ') and not value.strip():
+        key, _, text = line.strip().partition(':')
+        if not line.startswith(' ') and not text:
             group = key + '.'
         else:
-            name = (group if line.startswith(' ') else '') + key
-            case[name] = value.strip().strip('"')
+            case[(group if line.startswith(' ') else '') + key] = plain_value(text.strip())
     return case
+
+
+def plain_value(text):
+    """Without the comment after it; of a text in quotes what they enclose, without the backslash before each " and
+    backslash of it."""
+    quoted = re.match(r'"((?:[^"\\]|\\.)*)"', text)
+    return re.sub(r'\\(["\\])', r'\1', quoted.group(1)) if quoted else text.split('  #')[0].rstrip()
+
+
+def read_fingerprints(path):
+    """{what: fingerprint} from the head of a resolved case, of the grains without their number."""
+    found = re.findall(r'^# (?:\d+ )?(.*), fingerprint ([0-9a-f]+)$', path.read_text(), re.MULTILINE)
+    return dict(found)
 
 
 def read_units(path):

@@ -40,20 +40,20 @@ class Member:
         return time[known], values[:, known].min(axis=0), values[:, known].max(axis=0)
 
 
-def members(runs, each=False):
-    """One member per run, or, unless `each`, per set of runs whose cases differ only in the seed. Runs with equal
-    seeds stay single: they are repetitions, whose mean is no average over seeds."""
-    groups = [[run] for run in runs] if each else grouped(runs)
+def members(runs, each=False, swept=lambda run: ()):
+    """One member per run, or, unless `each`, per set of runs whose cases and files, and what a study has `swept`, differ
+    only in the seed. Runs with equal seeds stay single: they are repetitions, whose mean is no average over seeds."""
+    groups = [[run] for run in runs] if each else grouped(runs, swept)
     names = unique([name_of(group) for group in groups], groups)
     return [Member(name, group[0] if len(group) == 1 else average(group), group)
             for name, group in zip(names, groups)]
 
 
-def grouped(runs):
+def grouped(runs, swept):
     """Lists of runs, in the order of their first runs."""
     alike = {}
     for run in runs:
-        alike.setdefault(case_without_seed(run), []).append(run)
+        alike.setdefault((case_without_seed(run), swept(run)), []).append(run)
     order = []
     for group in alike.values():
         seeds = {run.case.get(SEED) for run in group}
@@ -66,7 +66,11 @@ def case_without_seed(run):
     """A run without a readable case belongs to no group."""
     if not run.case:
         return id(run)
-    return tuple(sorted((key, value) for key, value in run.case.items() if key != SEED))
+    return without_seed(run.case), without_seed(run.files())
+
+
+def without_seed(values):
+    return tuple(sorted((key, value) for key, value in values.items() if key != SEED))
 
 
 def share_time(runs):
@@ -114,7 +118,8 @@ def shared_times(runs):
 
 def average(runs):
     """RunData of the group: mean history, largest maxima, worst status."""
-    mean = run_data.RunData(runs[0].folder, record=average_record(runs), case=dict(runs[0].case))
+    mean = run_data.RunData(runs[0].folder, record=average_record(runs), case=dict(runs[0].case),
+                            fingerprints=runs[0].fingerprints)
     mean.case[SEED] = ', '.join(run.case[SEED] for run in runs)
     time = shared_times(runs)
     columns = [name for name in runs[0].history if all(name in run.history for run in runs)]

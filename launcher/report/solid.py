@@ -23,6 +23,28 @@ def volumes(run, grains):
     return areas
 
 
+def square_gyrations(run, grains):
+    """(n,) I/M about the centre of mass [D^2]: R^2/2 of discs, 2 R^2/5 of spheres; of polygons with corners p, q, ...
+    sum of c (p.p + p.q + q.q) over 6 times sum of c, c = p x q."""
+    diameter = run.scale('D')
+    squares = (0.4 if run.in_space() else 0.5) * (grains.radii / diameter)**2
+    for i, corners in (grains.outlines or {}).items():
+        p = (corners - grains.centres[i]) / diameter
+        q = np.roll(p, -1, axis=0)
+        c = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+        squares[i] = c @ (p * p + p * q + q * q).sum(axis=1) / (6.0 * c.sum())
+    return squares
+
+
+def ratios_in_liquid(run, grains):
+    """(n,) R_h/R, what the liquid sees of a grain: h + s/(cells per R), the shift s of the surface in space only."""
+    ratio = float(run.case.get('fluid.hydrodynamic_radius', 1.0))
+    if not run.in_space():
+        return np.full(len(grains.radii), ratio)
+    cells = float(run.case['fluid.cells_per_diameter']) * grains.radii / run.scale('D')
+    return ratio + float(run.case.get('fluid.surface_shift', 0.0)) / cells
+
+
 def densities(run, grains):
     """(n,) over rho_f. Files without densities are of equal grains."""
     if grains.densities is None:

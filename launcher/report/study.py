@@ -2,8 +2,8 @@
 """study.py FOLDER: the results of a study, from FOLDER/study.json and the run folders it names.
 
 Writes study.csv, one row per run, and study.html: per part the runs that differ in the seed alone taken
-together, their curves, and what was measured against every swept number. Runs that are missing or have no
-history are listed and left out of the figures.
+together, their curves, and what was measured against every swept number. Runs that are not done are listed, and left
+out of means and figures.
 """
 import csv
 import io
@@ -28,6 +28,7 @@ from measured import DRAWN, MEASURED, table
 from document.page import Page, write_whole
 from head import facts
 from paper import add as paper
+from paper.selection import is_done
 from document.working import Progress
 
 MOST_PICTURES = 12
@@ -110,12 +111,15 @@ def add_notes(page, runs, command):
 def add_part(page, part, runs):
     """Answers first: what was measured against what was swept, then pictures, curves, and all numbers on demand."""
     page.heading(part)
-    there = [run for run in runs if run.data.history is not None]
+    there = [run for run in runs if is_done(run)]
     if not there:
-        page.paragraph('No run of this part has a history yet.')
+        page.paragraph('No run of this part is done yet.')
         return
-    members = seeds.members([run.data for run in there])
+    if left_out := [run.entry['name'] for run in runs if not is_done(run) and run.data.history is not None]:
+        page.paragraph(f'Left out, since they are not done: {", ".join(left_out)}.', 'remark')
     by_folder = {run.data.folder: run for run in there}
+    members = seeds.members([run.data for run in there],
+                            swept=lambda data: seeds.without_seed(by_folder[data.folder].entry['values']))
     keys = [key for key in swept_keys(runs) if key != seeds.SEED]
     values = {member.name: by_folder[member.runs[0].folder].entry['values'] for member in members}
     names = header_of(members, keys, values)
@@ -125,7 +129,7 @@ def add_part(page, part, runs):
         if shown:
             page.panels([(figure, f'{part}-{key}-{name}') for figure, name in shown],
                         f'Against {key}; bars from the smallest to the largest of the seeds.')
-    add_pictures(page, part, members, there)
+    add_pictures(page, part, members, runs)
     comparison = compare.measure(members)
     page.legend(compare_page.legend_entries(members))
     page.panels(((figure, f'{part}-{name}') for figure, name in compare_page.draw_curves(comparison)),

@@ -37,11 +37,12 @@ def taken(tokens):
         return items(tokens, ']', taken)
     if first == '{':
         return dict(items(tokens, '}', entry))
-    return scalar(first.strip())
+    return quoted(first.strip()) if first.strip().startswith('"') else scalar(first.strip())
 
 
 def entry(tokens):
-    key = tokens.pop(0).strip().strip('"')
+    first = tokens.pop(0).strip()
+    key = quoted(first) if first.startswith('"') else first
     if tokens and tokens[0] == ':':
         tokens.pop(0)
     return key, taken(tokens)
@@ -65,4 +66,9 @@ def scalar(text):
             return number(text)
         except ValueError:
             pass
-    return text.strip('"')
+    return text
+
+
+def quoted(token):
+    """What its quotes enclose, without the backslash before each " and backslash of it."""
+    return re.sub(r'\\(["\\])', r'\1', token[1:-1])

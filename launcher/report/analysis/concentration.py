@@ -27,17 +27,19 @@ def concentration(run):
     width, height = run.size()
     ground = width * run.depth() if run.in_space() else width
     edges = np.linspace(0.0, height, max(1, int(round(height / LAYER))) + 1)
-    images = (-height, 0.0, height) if run.has_cyclic_floor() else (0.0,)
-    solid = [in_layers(one, edges, run.in_space(), images) for one in there]
+    period = height if run.has_cyclic_floor() else None
+    solid = [in_layers(one, edges, run.in_space(), period) for one in there]
     return Concentration(np.array([one.time for one in there]), edges, np.array(solid) / (ground * np.diff(edges)))
 
 
-def in_layers(snapshot, edges, in_space=False, images=(0.0,)):
-    """Solid area of each layer [D^2], in space its volume [D^3], of grains and their images so far above them [D]."""
+def in_layers(snapshot, edges, in_space=False, period=None):
+    """Solid area of each layer [D^2], in space its volume [D^3]. With a period [D], positions run on beyond floor and top,
+    and a grain near one of them reaches in at the other."""
     radius = snapshot.radii if in_space else np.sqrt(snapshot.areas / np.pi)
     share = volume_below if in_space else below_level
-    return np.diff([sum(share(snapshot.centres[:, 1] + image, radius, level).sum() for image in images)
-                    for level in edges])
+    height = snapshot.centres[:, 1] if period is None else snapshot.centres[:, 1] % period
+    images = (0.0,) if period is None else (-period, 0.0, period)
+    return np.diff([sum(share(height + image, radius, level).sum() for image in images) for level in edges])
 
 
 def below_level(height, radius, level):

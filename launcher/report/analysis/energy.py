@@ -6,8 +6,9 @@ Per window the coupler adds up the works of contacts and of the liquid on the gr
     d(E_kin + E_pot) = W_contacts + W_fluid + (dt/2) sum (M - m_f) g dU_y
 
 The last term is that of grains that move with their new velocity; over any time it is at most (1 - rho_f/rho_s) g dt/2
-times the change of the mean vertical velocity, weighted by the submerged weights of the grains. What the liquid receives, -W_fluid, is its own kinetic energy (of the
-velocity fields, cells in grains taken off), and what viscosity dissipates or flows out of the box: the rest.
+times the change of the mean vertical velocity, weighted by the submerged weights of the grains. What the liquid receives,
+-W_fluid, is its own kinetic energy (of the velocity fields, cells in grains taken off), and what viscosity dissipates or
+flows out of the box: the rest.
 Energies over (sum of m) u_c^2.
 """
 from dataclasses import dataclass
@@ -15,8 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 
 import fluid_fields
+import grain_files
+import solid
 from analysis import snapshots
-from analysis.once import once_per_run
+from analysis.once import UNREADABLE, once_per_run
 from analysis.weight_balance import submerged_share, weights_of
 
 MOST_FIELDS = 11
@@ -60,7 +63,7 @@ def budget(run):
 
 
 def drives_grains(run):
-    return any((one.velocities[~one.free()] != 0.0).any() for one in snapshots.snapshots(run))
+    return any((one.moving() & ~one.free()).any() for one in snapshots.snapshots(run))
 
 
 def changes(values):
@@ -101,27 +104,36 @@ def dissipated_share(run, part):
 
 @once_per_run
 def fluid_kinetic(run):
-    """(times [t_c], kinetic energy of the liquid outside grains) at up to 11 of the fields; None without fields.
-    Cells in grains move with them and have rho_f/rho_s of the grains' kinetic energy."""
-    time, grains = run.column('kinetic_energy')
+    """(times [t_c], kinetic energy of the liquid outside grains) at up to 11 of the fields with grains; None without."""
     there = snapshots.snapshots(run)
-    if not run.is_wet() or not there or not len(grains) or 'domain.size' not in run.case:
+    if not run.is_wet() or not there or 'domain.size' not in run.case:
         return None
     box = np.prod(run.size()) * (run.depth() if run.in_space() else 1.0)
-    ratio = there[0].density
-    mass = there[0].areas.sum() * ratio  # in rho_f D^2, in space rho_f D^3
+    mass = there[0].areas.sum() * there[0].density  # in rho_f D^2, in space rho_f D^3
     times, fields = [], fluid_fields.field_times(run)
     for moment, folder in [fields[i] for i in snapshots.evenly(len(fields), MOST_FIELDS)]:
         try:
+            grains = grain_files.grains_at(run, moment)
             square = fluid_fields.mean_square_velocity(run, moment, folder)
-        except (ValueError, KeyError, OSError) as error:
+        except UNREADABLE as error:
             if run.in_space():  # the pictures of the plane note it
                 run.remarks.append(f'Velocity of the liquid at {moment:g}: {error}')
             continue
-        whole = 0.5 * box * square / run.scale('u_c')**2 / mass
-        now = moment / run.scale('t_c')
-        times.append((now, whole - np.interp(now, time, grains) / ratio))
+        if grains is None or grains.velocities is None:
+            continue
+        whole = 0.5 * box * square / run.scale('u_c')**2
+        times.append((moment / run.scale('t_c'), (whole - in_grains(run, grains)) / mass))
     return tuple(np.array(times).T) if times else None
+
+
+def in_grains(run, grains):
+    """Kinetic energy of the cells in grains, which move with them [rho_f D^2 u_c^2, in space D^3]: the sum of
+    V/2 (f^d U^2 + f^(d+2) k^2 w^2), f = R_h/R, since the body in the liquid has the size f of the grain, k^2 = I/M."""
+    f, dimensions = solid.ratios_in_liquid(run, grains), 3 if run.in_space() else 2
+    speeds = (grains.speeds() / run.scale('u_c'))**2
+    spins = 0.0 if grains.spins is None else (grains.spins**2).sum(axis=1) * run.scale('t_c')**2
+    turning = f**(dimensions + 2) * solid.square_gyrations(run, grains) * spins
+    return float(0.5 * (solid.volumes(run, grains) * (f**dimensions * speeds + turning)).sum())
 
 
 def caption(run, found):

@@ -107,11 +107,17 @@ def add_pressure(page, run):
     axes.legend(fontsize=8)
     told = ('Reduced pressure in submerged weights of a layer of solid one D high; negative: it holds the packing '
             'together.')
-    if run.in_space():
-        level = '' if pore_pressure.has_level(run) else ' No side of the box fixes its level.'
-        return page.panels([(figure, 'pressure_probes')], told + level)
-    page.panels([(figure, 'pressure_probes'), *pressure_maps(run)],
-                told + ('' if pore_pressure.has_level(run) else ' Relative to the upper right corner.'))
+    maps = [] if run.in_space() else pressure_maps(run)
+    page.panels([(figure, 'pressure_probes'), *maps], told + level_told(run, maps))
+
+
+def level_told(run, maps):
+    """What the pressures are relative to where no side of the box fixes a level."""
+    if pore_pressure.has_level(run):
+        return ''
+    if not pore_pressure.has_written_probes(run):
+        return ' Relative to the upper right corner.'
+    return ' No side of the box fixes its level' + ('; maps are relative to the upper right corner.' if maps else '.')
 
 
 def pressure_maps(run):

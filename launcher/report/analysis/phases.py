@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import findings
 from analysis import shear_band, snapshots
 from analysis.once import once_per_run
 
@@ -40,7 +41,8 @@ class Moment:
 
 @dataclass
 class Phases:
-    """The moments that show a phase best, each after the one before; None where there is none."""
+    """The moments that show a phase best, each after the one before; None where there is none. Of heaps, those that flow on
+    horizontally come first."""
 
     fall: Moment
     heap: Moment
@@ -69,12 +71,13 @@ def direction(velocities):
 
 
 def moments(run):
-    """Of the snapshots in which grains move."""
+    """Of the snapshots until the grains rest: what creeps in a heap at rest has a direction too, but is no phase."""
     there = snapshots.snapshots(run)
     first = there[0]
     low, high = np.quantile(first.centres[:, 1], [0.25, 0.75])
     tops, bottoms = first.ids[first.centres[:, 1] >= high], first.ids[first.centres[:, 1] <= low]
-    return [moment(one, tops, bottoms) for one in there if one.velocities.any()]
+    return [moment(one, tops, bottoms) for one in there
+            if one.velocities.any() and not findings.is_at_rest(run, one.time)]
 
 
 def moment(snapshot, tops, bottoms):
@@ -93,6 +96,7 @@ def phases(run):
     found = moments(run)
     fall = next((one for one in found if one.falls()), None)
     later = [one for one in found if fall is None or one.time > fall.time]
-    heap = max((one for one in later if one.heaps()), key=lambda one: one.resting, default=None)
+    last_flat = max((one.time for one in later if one.is_flat()), default=0.0)
+    heap = max((one for one in later if one.heaps()), key=lambda one: (one.time < last_flat, one.resting), default=None)
     flat = next((one for one in later if one.is_flat() and (heap is None or one.time > heap.time)), None)
     return Phases(fall, heap, flat)

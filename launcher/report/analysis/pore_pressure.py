@@ -73,11 +73,16 @@ def probes(run):
     for other runs."""
     if not run.is_wet() or unit(run) is None:
         return None
-    if (run.folder / 'probes.csv').exists() and run.case.get('output.probes', '~') not in ('~', ''):
+    if has_written_probes(run):
         return written_probes(run)
     if run.in_space():
         return None
     return field_probes(run) if run.is_avalanche() and snapshots.snapshots(run) else None
+
+
+def has_written_probes(run):
+    """They are as the liquid has them, without a shift of the level."""
+    return (run.folder / 'probes.csv').exists() and run.given('output.probes') is not None
 
 
 def written_probes(run):

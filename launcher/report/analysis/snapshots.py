@@ -42,10 +42,17 @@ class Snapshot:
     weights: np.ndarray = None  # (n,) submerged [rho_s g D^2]
     density: float = 1.0    # rho_s/rho_f
     prescribed: np.ndarray = None  # (n,) bool; None: no grain is
+    velocity_z: np.ndarray = None  # (n,) [u_c]; None: of no grain
+    spins: np.ndarray = None       # (n, 3) [1/t_c]; None: of no grain
 
     def free(self):
         """(n,) bool: grains whose motion is not prescribed."""
         return np.ones(len(self.ids), bool) if self.prescribed is None else ~self.prescribed
+
+    def moving(self):
+        """(n,) bool: grains that move along any axis or turn."""
+        parts = [part for part in (self.velocities, self.velocity_z, self.spins) if part is not None]
+        return (np.column_stack(parts) != 0.0).any(axis=1)
 
     def prescribed_ids(self):
         return self.ids[~self.free()]
@@ -82,7 +89,9 @@ def read_snapshot(run, time, grain_file, contact_file):
     return Snapshot(time / run.scale('t_c'), grains.ids, grains.centres / diameter, grains.radii / diameter,
                     grains.velocities / run.scale('u_c'), solid.volumes(run, grains), force,
                     read_contacts(run, contact_file, solid.unit_force(run, grains)) if contact_file else None,
-                    submerged_weights(run, grains), solid.mean_density(run, grains), grains.prescribed)
+                    submerged_weights(run, grains), solid.mean_density(run, grains), grains.prescribed,
+                    None if grains.velocity_z is None else grains.velocity_z / run.scale('u_c'),
+                    None if grains.spins is None else grains.spins * run.scale('t_c'))
 
 
 def submerged_weights(run, grains):

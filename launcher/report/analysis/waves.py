@@ -29,9 +29,10 @@ def crest(heights):
 
 
 def largest_crest(run):
-    """Of the snapshots in which an avalanche flows horizontally [D]; None without any."""
-    if not run.is_avalanche() or not snapshots.snapshots(run):
+    """Of the snapshots from its horizontal phase on in which an avalanche flows horizontally [D]; None without any."""
+    found = phases.phases(run)
+    if found is None or found.flat is None:
         return None
-    flat = {one.time for one in phases.moments(run) if one.is_flat()}
+    flat = {one.time for one in phases.moments(run) if one.is_flat() and one.time >= found.flat.time}
     crests = [crest(thickness(run, one)) for one in snapshots.snapshots(run) if one.time in flat]
     return max(crests, default=None)

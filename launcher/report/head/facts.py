@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What was played: the case and the programs, with units."""
+import numpy as np
 
 SIDES = {False: ('left', 'right', 'bottom', 'top'), True: ('left', 'right', 'bottom', 'top', 'front', 'back')}
 
@@ -57,21 +58,27 @@ def units(case):
 
 
 def differing_scales(runs):
-    """What is told of runs that have other values of u_c, D or t_c: each is in its own. Empty if all have the same."""
-    scales = [tuple(run.record.get(name) for name in ('D', 'u_c', 't_c')) for run in runs]
+    """What is told of runs whose scales are of another kind, or have other values: each is in its own. Empty if all have the
+    same. Where they are no SI units, D and u_c are 1, and g tells of which size u_c is."""
+    scales = [(run.case.get('scales.kind'), *(run.record.get(name) for name in ('D', 'u_c', 't_c', 'g'))) for run in runs]
     if len(set(scales)) < 2:
         return ''
-    each = '; '.join(f'{run.folder.name}: D = {d:g} m, u_c = {u:g} m/s, t_c = {t:g} s'
-                     for run, (d, u, t) in zip(runs, scales) if None not in (d, u, t))
-    return f'The scales of these runs differ, and each is shown in its own: differences are not those of one unit. {each}.'
+    each = '; '.join(f'{run.folder.name}: {told_scales(*known)}' for run, known in zip(runs, scales) if None not in known)
+    return ('The scales of these runs differ, and each is shown in its own: differences are not those of one unit.'
+            + (f' {each}.' if each else ''))
+
+
+def told_scales(kind, diameter, velocity, time, gravity):
+    if kind == 'physical':
+        return f'D = {diameter:g} m, u_c = {velocity:g} m/s, t_c = {time:g} s, g = {gravity:g} m/s²'
+    return f'{kind}, u_c = {velocity / np.sqrt(gravity * diameter):.4g} √(g D)'
 
 
 def units_in_words(run):
     """What the units of all numbers and curves are."""
     settling = 'that of settling (Topin 2011, Eq. 21)'
-    given = run.case.get('scales.velocity') is not None
     velocity = {'avalanche': '√(g D)', 'sedimentation': settling,
-                'physical': 'scales.velocity' if given else settling}.get(run.case.get('scales.kind'))
+                'physical': 'scales.velocity' if run.given('scales.velocity') else settling}.get(run.case.get('scales.kind'))
     return ('Units: D is the diameter of the grains, u_c the characteristic velocity' + (f', {velocity}' if velocity else '')
             + ', and t_c = D/u_c the time to move by D with it; ρ_s and ρ_f are the densities of grains and fluid, m is the '
             'mass of a grain, g gravity.')

@@ -106,9 +106,7 @@ def add(page, run):
 def load(run, time, path):
     """(slice, grains or None); None if the file cannot be read, which is noted."""
     try:
-        found = read(time, path)
-        near = [(t, grains) for t, grains in grain_files.quiet_series(run) if abs(t - time) <= 1e-6 * abs(time)]
-        return found, grain_files.read_grains(*near[0]) if near else None
+        return read(time, path), grain_files.grains_at(run, time)
     except (ValueError, KeyError, OSError, AttributeError, SyntaxError) as error:
         run.remarks.append(f'Slice at {time:g}: {error}')
         return None
@@ -172,7 +170,7 @@ def panel(run, one, grains, values, limit, colours, label):
 
 def walls_share(run, one, grains):
     """Of each cell, what walls inside the box cover: the covered share away from the spheres; None without such walls."""
-    if not run.case.get('domain.walls_file'):
+    if not run.given('domain.walls_file'):
         return None
     share = one.covered.copy()
     if grains is None:
@@ -196,7 +194,7 @@ def coloured(axes, x, y, values, **how):
 def caption(run, shown):
     fastest = max((float(np.sqrt((one.velocity**2).sum(axis=-1)).max()), one.time) for one, _ in shown)
     planes = ', '.join(sorted({one.name(run) for one, _ in shown}))
-    bodies = 'Spheres and walls (grey)' if run.case.get('domain.walls_file') else 'Spheres'
+    bodies = 'Spheres and walls (grey)' if run.given('domain.walls_file') else 'Spheres'
     return (f'Planes {planes} (output.slices; files for ParaView: fluid/slices/slices.pvd). Colour: vertical velocity of the '
             'fluid on one scale, red up, blue down; then its reduced pressure, the mean outside spheres taken off. '
             f'{bodies} where the plane cuts them. Fastest here: {fastest[0] / run.scale("u_c"):.3g} u_c at t = '

@@ -99,7 +99,7 @@ def _axis(run, name):
 
 
 def _value(run, name, part, default='0'):
-    return run.case.get(f'domain.motions.{name}.{part}') or default
+    return run.given(f'domain.motions.{name}.{part}') or default
 
 
 def _numbers(run, name, part, default='[0, 0, 0]'):

@@ -231,6 +231,20 @@ class Waves(unittest.TestCase):
         self.assertIsNone(waves.largest_crest(self.shots(self.thick(12, 4, 8, steep=1.0))))
         self.assertIsNone(waves.largest_crest(with_snapshots(run())))
 
+    def test_what_lies_at_rest_is_no_wave(self):
+        data = self.shots(self.thick(12, 4, 0), self.thick(8, 4, 6), self.thick(12, 4, 8))
+        for end, crest in ((0.02, 1.0), (0.005, 0.5)):
+            data.history = {'time': np.arange(3.0), 'mean_speed': np.array([0.5, 1.0, end])}
+            data.measured.pop('analysis.phases.phases', None)
+            self.assertEqual(waves.largest_crest(data), crest)
+
+    def test_a_trough_before_the_horizontal_phase_is_no_wave(self):
+        """A block slides along the floor, its upper half flows down over the rest, then all flow on."""
+        heap = self.thick(12, 4, 0)
+        heap.velocities = np.array(8 * [[0.0, 0.0]] + 8 * [[1.0, -1.0]])
+        data = self.shots(self.thick(12, 4, 8), heap, self.thick(8, 4, 6))
+        self.assertEqual(waves.largest_crest(data), 0.5)
+
 
 class PhasesOfACollapse(unittest.TestCase):
     def column(self, *velocities):
@@ -252,6 +266,23 @@ class PhasesOfACollapse(unittest.TestCase):
         self.assertAlmostEqual(found.heap.moving, 45.0)
         self.assertAlmostEqual(found.heap.resting, 0.5)
         self.assertAlmostEqual(found.flat.moving, np.degrees(np.arctan(0.1)))
+
+    def test_what_creeps_in_a_heap_at_rest_is_in_no_phase(self):
+        creep = 0.001 * np.array(self.fall)
+        data = self.column(self.heap, self.flat, creep)
+        self.assertEqual(phases.phases(data).fall.time, 3.0, 'without a history nobody knows that it rests')
+        data = self.column(self.heap, self.flat, creep)
+        data.history = {'time': np.arange(4.0), 'mean_speed': np.array([0.0, 1.0, 1.0, 0.001])}
+        found = phases.phases(data)
+        self.assertIsNone(found.fall)
+        self.assertEqual((found.heap.time, found.flat.time), (1.0, 2.0))
+
+    def test_a_heap_that_flows_on_horizontally_comes_first(self):
+        later = 6 * [(0, 0)] + 2 * [(1, -1)]  # more of it rests
+        found = phases.phases(self.column(self.fall, self.heap, self.flat, later))
+        self.assertEqual((found.heap.time, found.flat.time), (2.0, 3.0))
+        found = phases.phases(self.column(self.fall, self.heap, later))
+        self.assertEqual((found.heap.time, found.flat), (3.0, None))
 
     def test_grains_that_have_left_have_no_direction(self):
         data = self.column(self.fall)
@@ -410,6 +441,22 @@ class WrittenProbes(RunFolderTest):
         np.testing.assert_allclose(found.values, [[2, -4]])
         self.assertEqual(found.places.tolist(), [[1, 2, 3], [4, 5, 6]])
         self.assertEqual(found.names, ['(1, 2, 3) D', '(4, 5, 6) D'])
+
+    def test_their_level_is_told_where_no_side_fixes_it(self):
+        self.write_all()
+        self.write('probes.csv', 'time,pressure_1,velocity_x_1,velocity_y_1\n0.5,1,0,0\n1,3,0,0\n')
+        probed = CASE.replace('grains:', 'output:\n  probes: [1, 2]  # D\ngrains:\n  density_ratio: 1.5')
+        for case, maps, told in ((probed, False, 'No side of the box fixes its level.'),
+                                 (probed, True, 'No side of the box fixes its level; maps are relative to the upper right'),
+                                 (probed.replace('left: wall', 'left: free'), True, '')):
+            self.write('case.yaml', case)
+            if maps:
+                self.write('fluid/1/p', 'format ascii;\ninternalField uniform 2;\n')
+            page = Page('title')
+            panels.add_pressure(page, run_data.load_run(self.folder))
+            text = ' '.join(page.parts).partition('<figcaption>')[2]
+            self.assertIn(told, text)
+            self.assertEqual('level' in text, bool(told))
 
     def test_damaged_ones_are_said(self):
         self.write_all()
@@ -611,6 +658,9 @@ class Energies(unittest.TestCase):
         one.velocities[1] = 0.0
         one.prescribed = np.array([False, True])
         self.assertIsNotNone(energy.budget(with_snapshots(self.fall(), one)), 'a fixed one does no work')
+        for along_z, spin in ((0.5, 0.0), (0.0, -2.0)):
+            one.velocity_z, one.spins = np.array([1.0, along_z]), np.array([[0.0, 0.0, 3.0], [0.0, spin, 0.0]])
+            self.assertIsNone(energy.budget(with_snapshots(self.fall(), one)))
 
     def test_histories_without_works_have_none(self):
         self.assertIsNone(energy.budget(run(time=[0, 1], grains=[1, 1], kinetic_energy=[0, 1])))
@@ -674,6 +724,10 @@ class Concentrations(unittest.TestCase):
             shares = concentration.concentration(data).shares
             self.assertAlmostEqual(float(shares.sum()) * 4, solid)
         self.assertGreater(shares[0, 2], 0.0)
+        data = with_snapshots(run({'domain.size': '[4, 3]', 'domain.bottom': 'cyclic'}),
+                              *(snapshot([[1, y], [3, y]]) for y in (0.2, 0.2 + 4 * 3, 0.2 - 7 * 3)))
+        first, later, below_it = concentration.concentration(data).shares
+        np.testing.assert_allclose([later, below_it], [first, first])
 
     def test_shares_of_the_box(self):
         data = with_snapshots(run({'domain.size': '[4, 3]'}), snapshot([[1, 0.5], [3, 0.5]]))

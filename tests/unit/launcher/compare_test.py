@@ -176,6 +176,14 @@ class Compare(RunFolderTest):
         member = seeds.Member('one', data, [data])
         self.assertIsNone(compare.numbers(member, member, 'front_x')['end_value'])
 
+    def test_pores_are_areas_in_the_plane_and_volumes_in_space(self):
+        plane, space = [seeds.Member(name, run_data.RunData(name, case={'dimension': name}, history={
+            'time': np.arange(2.0), 'pore_volume': np.ones(2)})) for name in '23']
+        for members, unit, plain in (([plane], r'area $/\,D^2$', 'D^2'), ([space, space], r'volume $/\,D^3$', 'D^3'),
+                                     ([plane, space], r'area $/\,D^2$ or volume $/\,D^3$', 'D^2 or D^3')):
+            pores, = compare.quantities_of(members)
+            self.assertEqual((pores.unit, pores.plain_unit), (unit, plain))
+
     def test_seeds_are_averaged(self):
         for seed, scale in ((1, 1.0), (2, 2.0), (3, 3.0)):
             self.write_seed(f'dense-seed{seed}', seed, scale)
@@ -216,6 +224,29 @@ class Compare(RunFolderTest):
             self.write_seed(name, 1, 1.0)
         self.assertEqual(self.run_it('before', 'after')[0], 0)
         self.assertEqual([run['name'] for run in self.result()['runs']], ['before', 'after'])
+
+    def write_headed(self, name, seed, head, grains=''):
+        self.write_seed(name, seed, 1.0)
+        self.write(f'{name}/case.yaml', head + '\n' + CASE.replace('grains:\n', f'grains:\n{grains}')
+                   + f'random:\n  seed: {seed}\n')
+
+    def test_runs_with_other_walls_are_not_averaged(self):
+        walls = '# Walls inside the box, fingerprint 00000000000000{}'
+        for name, seed, number in (('a-1', 1, '0a'), ('a-2', 2, '0a'), ('b-1', 1, '0b'), ('b-2', 2, '0b')):
+            self.write_headed(name, seed, walls.format(number))
+        self.assertEqual(self.run_it('a-1', 'a-2', 'b-1', 'b-2')[0], 0)
+        self.assertEqual([run['seeds'] for run in self.result()['runs']], [['1', '2'], ['1', '2']])
+        self.assertEqual(self.result()['parameters'], {
+            'Walls inside the box, fingerprint': ['000000000000000a', '000000000000000b']})
+        self.assertNotIn('The cases are the same', (self.folder / 'page.html').read_text())
+
+    def test_grains_count_where_they_are_not_made_by_the_seed(self):
+        for grains, groups in (('  generator: random\n  file: ~\n', 1), ('  generator: poured\n  file: "a.csv"\n', 1),
+                               ('  generator: lattice\n  file: "a.csv"\n', 2)):
+            for seed in (1, 2):
+                self.write_headed(f'run-{seed}', seed, f'# {seed} grains, fingerprint 000000000000000{seed}', grains)
+            runs = [run_data.load_run(self.folder / f'run-{seed}') for seed in (1, 2)]
+            self.assertEqual(len(seeds.members(runs)), groups, grains)
 
     def test_a_group_covers_the_time_of_its_shortest_run(self):
         runs = []

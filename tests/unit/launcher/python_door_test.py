@@ -105,7 +105,8 @@ class Case(Door):
         for text, expected in (('~', None), ('1e-06', 1e-6), ('[[0, 1], [2.5, a b]]', [[0, 1], [2.5, 'a b']]), ('[]', []),
                                ('{gate: {kind: table, table: [0, -1]}, c: ~}',
                                 {'gate': {'kind': 'table', 'table': [0, -1]}, 'c': None}),
-                               ('{cmd: "a, b: [c]", time: 12:30}', {'cmd': 'a, b: [c]', 'time': '12:30'})):
+                               ('{cmd: "a, b: [c]", time: 12:30}', {'cmd': 'a, b: [c]', 'time': '12:30'}),
+                               (r'["say \"a\"", "1", "C:\\"]', ['say "a"', '1', 'C:\\']), ('"a" b "c"', '"a" b "c"')):
             self.assertEqual(case_values.value(text), expected)
         with self.assertRaises(ValueError):
             case_values.value('[1, 2] 3')

@@ -121,6 +121,13 @@ class Report(RunFolderTest):
         self.assertEqual(self.pictures(), ['concentration.png', 'concentration_profiles.png', 'sequence-0.png',
                                            'sequence-1.png', 'sequence.png'])  # of grains only
 
+    def test_texts_of_a_case_are_what_their_quotes_enclose(self):
+        for written, text in ((r'"\"my code\" --say \"a\""  # a command', '"my code" --say "a"'), (r'"C:\\"', 'C:\\'),
+                              ('"a  # b"', 'a  # b'), ('plain  # D', 'plain'), ('""', '')):
+            self.write('case.yaml', f'grains:\n  command: {written}\n  ranks: 2\n')
+            self.assertEqual(run_data.read_resolved_case(self.folder / 'case.yaml'),
+                             {'grains.command': text, 'grains.ranks': '2'})
+
     def test_empty_folder(self):
         page = self.make()
         for name in ('run.json', 'case.yaml', 'history.csv'):
@@ -189,6 +196,20 @@ class Report(RunFolderTest):
         self.write_all()
         self.write('history.csv', 'step,time,joint_rounds,joint_mismatch\n0,0,,\n10,1,3,1e-9\n')
         self.assertIn('Joint rounds: 3 on average, 3 at most', self.make())
+
+    def test_a_code_without_a_residual_has_springs(self):
+        data = run_data.RunData(self.folder, case={'grains.adapter': 'external'})
+        for residual, springs, words in (([np.nan, np.nan], True, 'Sub-steps: 20'), ([np.nan, 1e-4], False, 'Contact sweeps: 20')):
+            data.history = {'time': np.arange(2.0), 'contact_iterations': np.array([np.nan, 20.0]),
+                            'contact_residual': np.array(residual)}
+            self.assertEqual(data.has_springs(), springs)
+            self.assertIn(words, captions.solvers(data))
+
+    def test_a_dry_run_has_no_momentum_of_a_fluid(self):
+        data = run_data.RunData(self.folder, {'maxima': {'grain_balance': 1e-9, 'fluid_balance': 0.0}})
+        for wet, told in (('true', 'grains 1e-09, fluid 0.'), ('false', 'grains 1e-09.')):
+            data.case['fluid.enabled'] = wet
+            self.assertIn(told, captions.solvers(data))
 
     def test_dry_grains_are_coloured_by_their_speed(self):
         self.write_all()

@@ -54,7 +54,32 @@ def grain_file(ids, densities):
     places = np.column_stack([np.arange(count) + 0.5, np.full(count, 0.5), np.zeros(count)])
     forces = np.tile([0.0, 6.0, 0.0], (count, 1))
     return poly_data(places, '', array('id', np.array(ids), 1) + array('radius', np.full(count, 0.5), 1)
-                     + array('velocity', forces) + array('force', forces) + array('density', densities, 1))
+                     + array('velocity', forces) + array('angular_velocity', 2.0 * forces[:, [0, 2, 1]]) + array('force', forces)
+                     + array('density', densities, 1))
+
+
+class InTheLiquid(unittest.TestCase):
+    def test_a_grain_has_the_size_that_the_case_gives_it(self):
+        two = grains([2.0, 2.0], [0.5, 0.25])
+        self.assertEqual(solid.ratios_in_liquid(run(**{'fluid.hydrodynamic_radius': '0.8'}), two).tolist(), [0.8, 0.8])
+        space = {'fluid.hydrodynamic_radius': '0.8', 'fluid.surface_shift': '0.3', 'fluid.cells_per_diameter': '10'}
+        np.testing.assert_allclose(solid.ratios_in_liquid(run(space=True, **space), two), [0.8 + 0.06, 0.8 + 0.12])
+
+    def test_gyration(self):
+        square = np.array([[1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0]])
+        two = grains([2.0, 2.0], [0.5, 1.0], {1: square})
+        two.centres[1] = (1.5, 0.5)
+        np.testing.assert_allclose(solid.square_gyrations(run(), two), [0.125, 1.0 / 6.0])
+        np.testing.assert_allclose(solid.square_gyrations(run(space=True), grains([2.0])), [0.1])
+
+    def test_cells_of_a_grain_are_no_motion_of_the_liquid(self):
+        """V/2 (U^2 + k^2 w^2) of a body of 0.8 R, a disc of 0.4 D in the plane and a ball in space."""
+        case = {'fluid.hydrodynamic_radius': '0.8', 'fluid.cells_per_diameter': '10'}
+        one = grains([7.0])
+        one.velocities, one.velocity_z, one.spins = np.array([[3.0, 4.0]]), np.zeros(1), np.array([[0.0, 0.0, 5.0]])
+        self.assertAlmostEqual(energy.in_grains(run(**case), one), 0.5 * np.pi * 0.4**2 * (25 + 0.5 * 0.4**2 * 25))
+        self.assertAlmostEqual(energy.in_grains(run(space=True, **case), one),
+                               0.5 * 4 / 3 * np.pi * 0.4**3 * (25 + 0.4 * 0.4**2 * 25))
 
 
 class WrittenGrains(RunFolderTest):
@@ -88,6 +113,9 @@ class WrittenGrains(RunFolderTest):
         file.write_text(file.read_text().replace('<PointData>', '<PointData>' + array('prescribed', np.array([0, 1]), 1)))
         self.assertEqual(snapshots.snapshots(run_data.load_run(self.folder))[0].prescribed_ids().tolist(), [9])
 
+    def test_spins_are_read(self):
+        self.assertEqual(snapshots.snapshots(self.run_data)[0].spins.tolist(), 2 * [[0.0, 0.0, 12.0]])
+
     def test_pressures_are_over_the_density_of_the_first_grains(self):
         self.assertAlmostEqual(pore_pressure.unit(self.run_data), 2.0)
         self.assertAlmostEqual(weight_balance.submerged_share(self.run_data), 2.0 / 3.0)
@@ -101,12 +129,18 @@ class WrittenGrains(RunFolderTest):
         self.assertAlmostEqual(energy.fall_of(self.run_data, last), 6.0 * 0.5)
 
     def test_the_energy_of_the_liquid_is_over_the_mass_of_the_grains(self):
-        self.run_data.history['kinetic_energy'] = np.array([0.0, 0.0])
         ours = energy.fluid_kinetic(self.run_data)[1]
         self.run_data.measured.clear()
         for k, densities in enumerate(([4.0, 8.0], [4.0])):
             self.write(f'grains/grains_{k:08d}.vtp', grain_file([4, 9][:2 - k], densities))
         np.testing.assert_allclose(energy.fluid_kinetic(self.run_data)[1], ours / 2.0)
+
+    def test_no_energy_is_left_where_only_the_cells_of_grains_move(self):
+        self.write('case.yaml', CASE.replace('fluid:', 'fluid:\n  hydrodynamic_radius: 0.8'))
+        # A disc of 0.4 D in 24 D2 with U = 6 u_c and w = 12/t_c has the energy of all cells with u^2 = share (U^2 + k^2 w^2).
+        square = 0.4**2 * np.pi / 24.0 * (6.0**2 + 0.5 * 0.4**2 * 12.0**2)
+        self.write('fluid/1/U', f'internalField uniform (0 {np.sqrt(square):.17g} 0);')
+        self.assertAlmostEqual(energy.fluid_kinetic(run_data.load_run(self.folder))[1][1], 0.0)
 
     def test_the_viscous_number_is_of_the_same_density(self):
         first, last = snapshots.snapshots(self.run_data)

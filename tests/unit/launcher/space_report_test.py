@@ -110,12 +110,15 @@ class Liquid(SpaceRun):
                    + values.tobytes() + b')\n;\n')
 
     def test_motion_of_the_liquid_has_a_point_per_field(self):
-        self.write('history.csv', 'time,kinetic_energy\n0,0\n1,0.5\n')
+        """The liquid sees radii of 0.8 * 0.5 + 0.3/2 D. Two of the three spheres move, with 3 and 5 u_c."""
+        self.write('case.yaml', CASE.replace('enabled: false', 'enabled: true\n  cells_per_diameter: 2\n'
+                                             '  hydrodynamic_radius: 0.8\n  surface_shift: 0.3'))
         data = run_data.load_run(self.folder)
         times, values = energy.fluid_kinetic(data)
         self.assertEqual(times.tolist(), [0.0, 1.0])
-        whole = 0.5 * 0.5**3 * (self.i**2 + self.j**2 + self.k**2).sum() / (3 * np.pi / 6 * 2.0)
-        np.testing.assert_allclose(values, [0.0, whole - 0.5 / 2.0])
+        mass = 3 * np.pi / 6 * 2.0
+        whole = 0.5 * 0.5**3 * (self.i**2 + self.j**2 + self.k**2).sum() / mass
+        np.testing.assert_allclose(values, [0.0, whole - 0.5 * 4 / 3 * np.pi * 0.55**3 * (9 + 25) / mass])
         self.assertEqual(data.remarks, [])
 
     def test_fields_of_the_box_program_count_by_their_heights(self):
@@ -133,7 +136,6 @@ class Liquid(SpaceRun):
         self.assertAlmostEqual(fluid_fields.mean_square_velocity(data, time, path), (rows[0] + 2 * rows[1]) / 3)
 
     def test_a_damaged_field_is_said(self):
-        self.write('history.csv', 'time,kinetic_energy\n0,0\n1,0.5\n')
         self.write('fluid/1/U', b'format binary;\ninternalField nonuniform List<vector> \n3\n(')
         data = run_data.load_run(self.folder)
         self.assertEqual(len(energy.fluid_kinetic(data)[0]), 1)
@@ -225,7 +227,11 @@ class Slices(SpaceRun):
     def test_walls_inside_are_what_spheres_do_not_cover(self):
         self.z.covered[:, 2:4] = 1.0   # 1 D < x < 2 D, where two of the spheres' right halves are
         self.assertIsNone(slices.walls_share(self.run_data, self.z, self.grains()))
+        self.run_data.case['domain.walls_file'] = '~'
+        self.assertIsNone(slices.walls_share(self.run_data, self.z, self.grains()))
+        self.assertNotIn('walls', slices.caption(self.run_data, [(self.z, None)]))
         self.run_data.case['domain.walls_file'] = 'walls.csv'
+        self.assertIn('walls (grey)', slices.caption(self.run_data, [(self.z, None)]))
         np.testing.assert_allclose(slices.walls_share(self.run_data, self.z, None), self.z.covered)
         share = slices.walls_share(self.run_data, self.z, self.grains())
         self.assertEqual(share[1, 2], 0.0)    # (1.25, 0.75) D, beside a sphere's centre at (1, 0.5) D

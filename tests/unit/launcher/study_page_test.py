@@ -33,7 +33,7 @@ class SweptValues(unittest.TestCase):
 
 
 class Page(RunFolderTest):
-    def write_study(self, **of_all):
+    def write_study(self, statuses=None, **of_all):
         runs = []
         for part, friction, seed in (('sweep', 0.1, 1), ('sweep', 0.1, 2), ('sweep', 0.3, 1), ('other', 0.1, 1)):
             name = f'friction-{friction}-seed-{seed}'
@@ -46,7 +46,8 @@ class Page(RunFolderTest):
             self.write(f'{folder}/grains/grains_20.vtp', VTP.format(y=3))
             self.write(f'{folder}/grains/grains.pvd', '<VTKFile><Collection>'
                        '<DataSet timestep="2" part="0" file="grains_20.vtp"/></Collection></VTKFile>')
-            runs.append({'part': part, 'name': name, 'folder': folder, 'status': 'done', 'error': '',
+            runs.append({'part': part, 'name': name, 'folder': folder, 'error': '',
+                         'status': (statuses or {}).get(folder, 'done'),
                          'values': {'contact.friction': str(friction), 'random.seed': str(seed)}})
         self.write('study.json', json.dumps({'study': 'slopes', 'runs': runs, **of_all}))
 
@@ -67,6 +68,25 @@ class Page(RunFolderTest):
         body = page[page.index('<body>'):]
         order = [body.index(part) for part in parts if part != 'All numbers of sweep']
         self.assertEqual(order, sorted(order))
+
+    def test_runs_that_are_not_done_are_in_no_mean(self):
+        self.write_study({'sweep/friction-0.1-seed-2': 'interrupted', 'other/friction-0.1-seed-1': 'failed'})
+        page = self.page()
+        self.assertIn('Peak of the mean velocity [u<sub>c</sub>]</td><td>1.1</td><td>1.3</td>', page)
+        self.assertIn('Left out, since they are not done: friction-0.1-seed-2.', page)
+        self.assertIn('<a href="sweep/friction-0.1-seed-2/report.html">', page)
+        self.assertIn('No run of this part is done yet.', page)
+        rows = (self.folder / 'study.csv').read_text().splitlines()
+        self.assertEqual([row.split(',')[4] for row in rows[1:]], ['done', 'interrupted', 'done', 'failed'])
+
+    def test_variants_are_not_averaged_though_their_cases_name_the_same_copies(self):
+        self.write_study()
+        record = json.loads((self.folder / 'study.json').read_text())
+        for variant, run in zip('aabb', record['runs']):
+            run['values'] = {'variant': variant, **run['values']}
+        record['runs'][0]['values']['variant'] = 'c'
+        self.write('study.json', json.dumps(record))
+        self.assertNotIn('(1.1 to 2.1)', self.page())
 
     def test_a_study_of_an_earlier_version_has_no_command(self):
         self.write_study()

@@ -100,12 +100,24 @@ class KeyNumbers(unittest.TestCase):
     def test_a_velocity_that_is_not_given_is_that_of_settling(self):
         given = {'scales.kind': 'physical', 'scales.velocity': '0.1'}
         self.assertIn('scales.velocity', facts.units_in_words(run_with(case=given)))
-        self.assertIn('settling', facts.units_in_words(run_with(case={**given, 'scales.velocity': None})))
+        self.assertIn('settling', facts.units_in_words(run_with(case={**given, 'scales.velocity': '~'})))
 
     def test_runs_with_other_scales_are_told_apart(self):
-        one, other = [run_with(record={'D': 1e-3, 'u_c': u, 't_c': 1e-3 / u}) for u in (0.07, 0.05)]
+        one, other = [run_with(record={'D': 1e-3, 'u_c': u, 't_c': 1e-3 / u, 'g': 9.81}, case={'scales.kind': 'physical'})
+                      for u in (0.07, 0.05)]
         self.assertEqual(facts.differing_scales([one, one]), '')
-        self.assertIn('u_c = 0.05 m/s', facts.differing_scales([one, other]))
+        self.assertIn('D = 0.001 m, u_c = 0.05 m/s, t_c = 0.02 s, g = 9.81 m/s²', facts.differing_scales([one, other]))
+
+    def test_velocities_of_one_may_be_of_another_size(self):
+        """u_c is 1 in all of them: √(g D), half of it, and a quarter of it."""
+        avalanche, light, lighter = [run_with(record={'D': 1, 'u_c': 1, 't_c': 1, 'g': g}, case={'scales.kind': kind})
+                                     for kind, g in (('avalanche', 1), ('sedimentation', 4), ('sedimentation', 16))]
+        for runs, told in (([avalanche, light], 'avalanche, u_c = 1 √(g D); : sedimentation, u_c = 0.5 √(g D)'),
+                           ([light, lighter], 'u_c = 0.25 √(g D)')):
+            text = facts.differing_scales(runs)
+            self.assertIn(told, text)
+            self.assertNotIn('m/s', text)
+        self.assertEqual(facts.differing_scales([light, light]), '')
 
 
 class Contents(unittest.TestCase):
