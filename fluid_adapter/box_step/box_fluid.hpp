@@ -11,6 +11,7 @@
 #include "fluid_adapter/box_step/box_layers.hpp"
 #include "fluid_adapter/box_step/row_reader.hpp"
 #include "fluid_adapter/box_step/row_work.hpp"
+#include "fluid_adapter/box_step/transport/flux_check.hpp"
 
 namespace turbidite {
 
@@ -72,6 +73,17 @@ struct HeldFlux {
         flux.resize(layers.components());
         for (int axis = 0; axis < layers.components(); ++axis)
             flux[axis].resize(layers.faces(axis));
+    }
+
+    /// On the faces of layer j normal to an axis, as FaceValues; of y on those below it.
+    double* layer(const BoxLayers& layers, int axis, int j) {
+        return flux[axis].data() + layers.face_row(axis, j, 0);
+    }
+
+    /// When all faces of layer j have their flux.
+    void show_layer(const BoxLayers& layers, int j, FluxCheck& check) {
+        check.add_layer(j, layer(layers, 0, j), layer(layers, 1, j), layer(layers, 1, j + 1),
+                        layers.in_space() ? layer(layers, 2, j) : nullptr);
     }
 
     /// Of a row of phi1, which begins at `first`.

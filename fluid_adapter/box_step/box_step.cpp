@@ -177,7 +177,7 @@ FluxReport BoxStep::project_and_hold_middle(double dt, bool begins) {
     return report;
 }
 
-void BoxStep::hold_middle_flux(bool begins) {
+double BoxStep::hold_middle_flux(double dt, bool begins) {
     for (int axis = 0; axis < layers_.components(); ++axis) {
         std::vector<double>& last = held_.last[axis];
         std::swap(held_.flux[axis], last);  // phi1 is the next window's last flux
@@ -185,6 +185,10 @@ void BoxStep::hold_middle_flux(bool begins) {
         if (begins) held_.flux[axis] = last;
         if (!begins) combine(last.size(), -0.5, held_.flux[axis].data(), 1.5, last.data());
     }
+    FluxCheck check(layers_);
+    check.begin();
+    for (int j = 0; j < layers_.ny; ++j) held_.show_layer(layers_, j, check);
+    return check.over(dt).courant;
 }
 
 void BoxStep::diffuse(double dt, const SeparableSolve::LayerWork& take) {

@@ -116,8 +116,8 @@ class BoxStep {
     /// Step 1, which holds that flux.
     FluxReport project_and_hold_middle(double dt, bool begins);
 
-    /// Instead of the flux that is held.
-    void hold_middle_flux(bool begins);
+    /// Instead of the flux that is held. Returns its Courant number over dt [s].
+    double hold_middle_flux(double dt, bool begins);
 
     /// phi1 of the last window over |S| on the faces normal to an axis, laid out like excess.
     std::vector<double>& last_flux(int axis) { return held_.last[axis]; }

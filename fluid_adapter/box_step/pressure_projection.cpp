@@ -22,7 +22,8 @@ PressureProjection::PressureProjection(const BoxLayers& layers, const SeparableO
       corrected_below_(layers.layer()),
       corrected_here_(layers.layer()),
       corrected_(3, PaddedLayer(layers.nx, layers.nz)),
-      check_(layers) {}
+      check_(layers),
+      held_check_(layers) {}
 
 FluxReport PressureProjection::project(SeparableSolve& pressure, const VelocityPointers& u,
                                        double dt, double k) {
@@ -30,7 +31,9 @@ FluxReport PressureProjection::project(SeparableSolve& pressure, const VelocityP
     begin(pressure, u, dt);
     // One layer beyond either end: e on the faces there needs v1 on both sides of them.
     for (int j = -1; j <= layers_.ny; ++j) correct_layer(j, dt, u);
-    return check_.over(dt);
+    FluxReport report = check_.over(dt);
+    if (held_.extrapolated) report.carried_courant = held_check_.over(dt).courant;
+    return report;
 }
 
 FluxReport PressureProjection::hold_solenoidal_flux(SeparableSolve& pressure,
@@ -39,14 +42,10 @@ FluxReport PressureProjection::hold_solenoidal_flux(SeparableSolve& pressure,
     // Here all of e counts: the flux is to be the nearest to S.u + e.
     kept_ = 1.0;
     begin(pressure, u, dt);
-    const auto at = [&](int axis, int j) {
-        return held_.flux[axis].data() + layers_.face_row(axis, j, 0);
-    };
+    const auto at = [&](int axis, int j) { return held_.layer(layers_, axis, j); };
     for (int j = 0; j <= layers_.ny; ++j) {
         projected(1, j, dt, at(1, j));
-        if (j >= 1)
-            check(j - 1, at(0, j - 1), at(1, j - 1), at(1, j),
-                  layers_.in_space() ? at(2, j - 1) : nullptr);
+        if (j >= 1) held_.show_layer(layers_, j - 1, check_);
         for (int axis = 0; j < layers_.ny && axis < layers_.components(); axis += 2)
             projected(axis, j, dt, at(axis, j));
     }
@@ -68,6 +67,7 @@ void PressureProjection::begin(SeparableSolve& pressure, const VelocityPointers&
     begin_velocity();
     p_.begin(pressure.values());
     check_.begin();
+    held_check_.begin();
 }
 
 /// S.u + k e on the faces of layer j: below it, or of all its rows along x or z. On the sides of
@@ -131,9 +131,11 @@ void PressureProjection::correct_layer(int j, double dt, const VelocityPointers&
     const int nx = layers_.nx, nz = layers_.nz;
     correct_across(j, dt);
     // Before correct_within, which overwrites the fluxes of layer j - 1 along x and z.
-    if (j >= 1)
-        check(j - 1, flux_x_.data(), flux_below_.data(), flux_above_.data(),
-              layers_.in_space() ? flux_z_.data() : nullptr);
+    if (j >= 1) {
+        check_.add_layer(j - 1, flux_x_.data(), flux_below_.data(), flux_above_.data(),
+                         layers_.in_space() ? flux_z_.data() : nullptr);
+        if (held_.extrapolated) held_.show_layer(layers_, j - 1, held_check_);
+    }
     if (j >= 0 && j < layers_.ny) {
         for (int axis = 0; axis < u.size(); axis += 2) correct_within(axis, j, dt);
         for (int k = 0; k < nz; ++k) {
@@ -182,16 +184,6 @@ void PressureProjection::correct_within(int axis, int j, double dt) {
         const double* low = axis == 0 ? corrected.row(k) - 1 : corrected.row(k - 1);
         excess_of(count, halves, faces, low, corrected.row(k), excess_[axis].data() + first);
         held_.hold_middle(axis, first, count, faces);
-    }
-}
-
-void PressureProjection::check(int j, const double* along, const double* below, const double* above,
-                               const double* behind) {
-    const int nx = layers_.nx;
-    for (int k = 0; k < layers_.nz; ++k) {
-        check_.add(j, along, below, above, behind, behind ? behind + nx : nullptr);
-        along += nx + 1, below += nx, above += nx;
-        if (behind) behind += nx;
     }
 }
 

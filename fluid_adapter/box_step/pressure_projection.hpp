@@ -5,7 +5,6 @@
 #pragma once
 
 #include "fluid_adapter/box_step/box_fluid.hpp"
-#include "fluid_adapter/box_step/transport/flux_check.hpp"
 #include "fluid_adapter/linear_solvers/separable_solve.hpp"
 
 namespace turbidite {
@@ -32,8 +31,6 @@ class PressureProjection {
     void correct_layer(int j, double dt, const VelocityPointers& u);
     void correct_across(int j, double dt);
     void correct_within(int axis, int j, double dt);
-    void check(int j, const double* along, const double* below, const double* above,
-               const double* behind);
 
     const BoxLayers& layers_;
     std::vector<RowReader>& u_;
@@ -44,7 +41,7 @@ class PressureProjection {
     Values flux_x_, flux_below_, flux_above_, flux_z_;  // of a layer
     Values corrected_below_, corrected_here_;           // v1 of two layers
     std::vector<PaddedLayer> corrected_;                // u1 and w1 of a layer
-    FluxCheck check_;
+    FluxCheck check_, held_check_;                      // of phi1, of the flux that is held
 };
 
 }  // namespace turbidite

@@ -36,11 +36,12 @@ double SideMotion::share(double from, double to) const {
 std::array<SideMotion, box_sides.size()> side_motions(const Settings& settings) {
     std::array<SideMotion, box_sides.size()> sides;
     const std::int32_t plates = first_plate(dimension_of(settings));
-    for (const char* key : {"run.wall_motions", "run.inflow_motions"})
-        for (const Moved& moved : motions_of(settings, key))
-            if (moved.what < plates) sides[moved.what].motion = moved.motion;
-    for (std::size_t side = 0; side < sides.size(); ++side)
-        sides[side].parabolic = parabolic(settings, box_sides[side]);
+    for (const Moved& wall : motions_of(settings, "run.wall_motions"))
+        if (wall.what < plates) sides[wall.what].motion = wall.motion;
+    // Only fluid that enters has a profile.
+    for (const Moved& inflow : motions_of(settings, "run.inflow_motions"))
+        if (inflow.what < plates)
+            sides[inflow.what] = {inflow.motion, parabolic(settings, box_sides[inflow.what])};
     return sides;
 }
 

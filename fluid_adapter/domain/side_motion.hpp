@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The velocity that a case prescribes on a side of the fluid: of a wall that slides along itself
-// (domain.SIDE_motion of a wall), or of the fluid that enters (the same of an inflow), with its
-// profile across the side (domain.SIDE_profile):
+// (domain.SIDE_motion of a wall), or of the fluid that enters (the same of an inflow). An inflow
+// has a profile across the side (domain.SIDE_profile), a wall is uniform:
 //
 //     uniform     v                  v: rate of the motion over a window, prescribed_motion.hpp
 //     parabolic   6 v s (1 - s)      s: place along the side, 0 to 1; v is the mean; in the plane
@@ -32,7 +32,7 @@ struct SideMotion {
 };
 
 /// Of every side of the box. Throws std::invalid_argument for motions of another format, and for
-/// an unknown profile.
+/// an unknown profile of an inflow.
 std::array<SideMotion, box_sides.size()> side_motions(const Settings& settings);
 
 }  // namespace turbidite

@@ -79,8 +79,8 @@ FluxReport BoxFluidStep::solenoidal() {
     if (in_second_order_ && !coupled_) return step_.project_and_hold_middle(dt_, begins);
     if (!coupled_) return step_.project(dt_);
     // Transport gets a flux without divergence; u^n, nearly solenoidal already, and e stay.
-    const FluxReport report = step_.hold_solenoidal_flux(dt_);
-    if (in_second_order_) step_.hold_middle_flux(begins);
+    FluxReport report = step_.hold_solenoidal_flux(dt_);
+    if (in_second_order_) report.carried_courant = step_.hold_middle_flux(dt_, begins);
     return report;
 }
 
@@ -95,12 +95,13 @@ Projection BoxFluidStep::project() {
     lend(false);
     if (!fields_->stay_in_rows()) load();
     const FluxReport report = solenoidal();
-    double largest[] = {report.divergence, report.courant};
+    double largest[] = {report.divergence, report.courant, report.carried_courant};
     // All ranks cut transport into the same number of parts.
-    ranks_.max(largest, 2);
+    ranks_.max(largest, 3);
     const BoxStep::Force none{};
     // With rigid grains p is found later: end_coupled tells its force.
-    return {{largest[0], largest[1]}, coupled_ ? none : on_all_ranks(step_.pressure_force())};
+    return {{largest[0], largest[1], largest[2]},
+            coupled_ ? none : on_all_ranks(step_.pressure_force())};
 }
 
 /// Where pressure and viscosity know the grains, transport leaves viscosity to them.

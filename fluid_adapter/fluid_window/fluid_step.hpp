@@ -51,7 +51,8 @@ class FluidStep {
 
     virtual Projection project() = 0;  ///< step 1
 
-    /// How transport cuts a window whose flux has this Courant number.
+    /// How transport cuts a window whose flux has this Courant number
+    /// (FluxReport::carried_courant).
     virtual TransportParts parts(double courant) const = 0;
 
     /// Step 2, in equal sub-steps with the same flux; one force each.

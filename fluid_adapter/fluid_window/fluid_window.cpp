@@ -136,6 +136,7 @@ void FluidWindow::project() {
     ledger_.add(projection.force);
     report_.divergence = projection.flux.divergence;
     report_.courant = projection.flux.courant;
+    parts_ = step_.parts(projection.flux.carried_courant);
 }
 
 /// u += a dt in every cell, those of grains included: the force on a grain contains that of the
@@ -150,7 +151,6 @@ void FluidWindow::drive() {
 }
 
 void FluidWindow::transport() {
-    parts_ = step_.parts(report_.courant);
     ledger_.add(step_.transport(parts_));
     if (step_.coupled()) drive();
 }

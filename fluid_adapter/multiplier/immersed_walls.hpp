@@ -13,8 +13,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "coupler/protocol/scene/mesh_rows.hpp"
 #include "coupler/protocol/scene/plates.hpp"
 #include "coupler/protocol/scene/space_walls.hpp"
 #include "coupler/shapes/shape.hpp"
@@ -24,11 +26,12 @@ namespace turbidite {
 
 class ImmersedWalls {
  public:
-    /// Reads run.dimension, run.walls and run.wall_motions.
+    /// Reads run.dimension, run.walls and run.wall_motions, and the rows of cells.
     explicit ImmersedWalls(const Settings& settings);
 
     /// Appends the bodies for the window [time, time + step], with ids below zero. What they refer
-    /// to is kept here until the next call.
+    /// to is kept here until the next call. Throws PhysicsRefused for a wall that is too thin for
+    /// the rows that it has reached (coupler/shapes/tight_wall.hpp).
     void append(double time, double step, std::vector<ImmersedGrain>& bodies);
 
  private:
@@ -41,8 +44,12 @@ class ImmersedWalls {
         SpaceWall wall;
         WallBody body;
     };
+    void check_rows(GrainId id, const WallSurface& surface, double thickness) const;
+
     std::vector<Strip> strips_;
     std::vector<InSpace> in_space_;
+    std::optional<MeshRows> stretched_;  ///< where rows are [m]
+    double diameter_;                    ///< D [m]
 };
 
 }  // namespace turbidite

@@ -71,6 +71,15 @@ MeshRows equal_rows(double height, double top) {
 
 }  // namespace
 
+double MeshRows::height_at(double y) const {
+    const auto within = [y](double top) { return y <= top * (1.0 + rounding); };
+    double top = equal_height();
+    if (within(top)) return height;
+    for (const double row : stretched)
+        if (within(top += row)) return row;
+    return largest();
+}
+
 bool rows_are_stretched(const Settings& settings) {
     return settings.has("fluid.stretch_ratio") && settings.real("fluid.stretch_ratio") > 1.0 &&
            settings.has("fluid.stretch_from") && settings.has("fluid.stretch_largest");

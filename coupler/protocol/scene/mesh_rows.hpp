@@ -31,6 +31,9 @@ struct MeshRows {
 
     /// Height of the highest row.
     double largest() const { return stretched.empty() ? height : stretched.back(); }
+
+    /// Of the row at a height y; of the highest row above all of them.
+    double height_at(double y) const;
 };
 
 /// The rows of a mesh whose height is `top` D. All of them are equal unless fluid.stretch_ratio is

@@ -38,6 +38,7 @@ Numbers numbers_of(const std::string& text) {
 Plate plate_of(const Numbers& n, std::int32_t key) {
     Plate plate;
     plate.key = key;
+    plate.id = std::llround(n[0]);
     plate.from = {n[1], n[2], 0.0};
     plate.to = {n[3], n[4], 0.0};
     plate.pivot = {n[8], n[9], 0.0};

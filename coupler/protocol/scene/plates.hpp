@@ -27,6 +27,7 @@ constexpr std::int32_t first_plate(int dimension) {
 /// All that is nearer to a segment than half the thickness, at t = 0, and its motion.
 struct Plate {
     std::int32_t key = 0;  ///< of the wall, after those of the sides of the box
+    GrainId id = 0;        ///< in the case
     Vec3 from{}, to{};     ///< ends [m]
     Vec3 pivot{};          ///< moves with the displacement, and the plate turns about it [m]
     double friction = 0.0;

@@ -42,6 +42,7 @@ SpaceWall wall_of(const std::string& text, std::int32_t key) {
     words >> id >> kind;
     SpaceWall wall;
     wall.key = key;
+    wall.id = number_of<GrainId>(id).value_or(0);
     wall.kind = kind_of(text, kind);
     // The order of the header, from X on: id and kind have been read.
     const std::vector<double> n = numbers_of(text, words);

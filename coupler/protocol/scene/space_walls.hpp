@@ -46,6 +46,7 @@ struct SpaceWallShape {
 /// A wall inside the box, at t = 0 [m], and its motion.
 struct SpaceWall : SpaceWallShape {
     std::int32_t key = 0;    ///< of the wall, after those of the sides of the box
+    GrainId id = 0;          ///< in the case
     double thickness = 0.0;  ///< [m]
     Vec3 pivot{};            ///< moves with the displacement, and the wall turns about it [m]
     double friction = 0.0;

@@ -36,9 +36,20 @@ void FluxCheck::add(int j, const double* along, const double* below, const doubl
                          largest_outflow_.data());
 }
 
+void FluxCheck::add_layer(int j, const double* along, const double* below, const double* above,
+                          const double* behind) {
+    const int nx = layers_.nx;
+    for (int k = 0; k < layers_.nz; ++k) {
+        add(j, along, below, above, behind, behind ? behind + nx : nullptr);
+        along += nx + 1, below += nx, above += nx;
+        if (behind) behind += nx;
+    }
+}
+
 FluxReport FluxCheck::over(double dt) const {
     // Half of what passes all faces of a cell: what enters also leaves. That is OpenFOAM's CoNum.
-    return {largest(largest_divergence_), 0.5 * dt * largest(largest_outflow_)};
+    const double courant = 0.5 * dt * largest(largest_outflow_);
+    return {largest(largest_divergence_), courant, courant};
 }
 
 }  // namespace turbidite

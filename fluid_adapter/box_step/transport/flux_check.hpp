@@ -12,8 +12,9 @@ namespace turbidite {
 
 /// Of the projected flux phi1, over this rank's cells.
 struct FluxReport {
-    double divergence = 0.0;  ///< max |div phi1| [1/s]
-    double courant = 0.0;     ///< largest Courant number, as OpenFOAM defines it
+    double divergence = 0.0;       ///< max |div phi1| [1/s]
+    double courant = 0.0;          ///< largest Courant number, as OpenFOAM defines it
+    double carried_courant = 0.0;  ///< that of the flux with which transport carries u
 };
 
 class FluxCheck {
@@ -27,6 +28,11 @@ class FluxCheck {
     void add(int j, const double* along, const double* below, const double* above,
              const double* behind, const double* before);
 
+    /// The same of all rows of the layer, one after the other.
+    void add_layer(int j, const double* along, const double* below, const double* above,
+                   const double* behind);
+
+    /// Of the flux that has been added, with which transport carries u too.
     FluxReport over(double dt) const;
 
  private:

@@ -32,7 +32,22 @@ Projection OperatorStep::project() {
     // S.u; the projection adds k e.
     fields_.interpolate_flux();
     const Foam::scalar divergence = projection_.project();
-    return {{divergence, fields_.courant()}, pressure_force(fields_)};
+    return {{divergence, fields_.courant(), carried_courant()}, pressure_force(fields_)};
+}
+
+/// Half a window beyond phi1, from the last window's; in the first window phi1 itself.
+Foam::surfaceScalarField OperatorStep::flux_of_the_middle() const {
+    if (!second_order_.goes_on()) return fields_.phi;
+    return 1.5 * fields_.phi - 0.5 * last_flux_;
+}
+
+double OperatorStep::carried_courant() {
+    if (!in_second_order_ || !second_order_.goes_on()) return fields_.courant();
+    const Foam::surfaceScalarField flux(fields_.phi);
+    fields_.phi = flux_of_the_middle();
+    const double courant = fields_.courant();
+    fields_.phi = flux;
+    return courant;
 }
 
 TransportParts OperatorStep::parts(double courant) const {
@@ -65,8 +80,7 @@ std::vector<BoundaryForce> OperatorStep::transport(const TransportParts& parts) 
         return forces;
     }
     const Foam::surfaceScalarField flux(fields_.phi);
-    // Half a window beyond phi1; in the first window phi1 itself
-    if (second_order_.goes_on()) fields_.phi = 1.5 * flux - 0.5 * last_flux_;
+    fields_.phi = flux_of_the_middle();
     last_flux_ = flux;
     return second_order_.transport(*this, dt, parts);
 }

@@ -40,6 +40,8 @@ class OperatorStep final : public FluidStep, private SecondOrderHost {
     SideForce convect(double dt);
     SideForce advance(double dt, bool viscous);
     double fastest_decay(double dt) const;
+    Foam::surfaceScalarField flux_of_the_middle() const;
+    double carried_courant();
     SideForce diffuse_implicitly(double dt) override;
 
     FluidFields& fields_;

@@ -109,6 +109,12 @@ double size_at(const CellGrid& grid, int axis, double x) {
     return grid.size(axis, grid.cyclic(axis) ? layer : std::clamp(layer, 0, grid.counts[axis] - 1));
 }
 
+/// The longest edge of the cells that a point may be interpolated from, two cells to each side: its
+/// wall and its grain may reach rows that are much higher [m].
+double stencil_size(const CellGrid& grid, const Eigen::Vector3d& x) {
+    return grid.largest_size(x, 2.0 * grid.largest_size(x, 0.0));
+}
+
 /// The layers of an axis that a grain reaches.
 struct Layers {
     int low, high;
@@ -307,30 +313,32 @@ bool PointPlacement::meets_itself(const CellGrid& grid, const ImmersedGrain& gra
             (grid.cyclic(1) && grid.length(1) < least));
 }
 
-/// Drops the points of grain a within `reach` of wall b or of any of its images: of a wall that is
-/// longer than half a period the one with the nearest middle need not be the nearest.
+/// Rule 1 for the points of grain a and all images of wall b: of a wall that is longer than half a
+/// period the one with the nearest middle need not be the nearest.
 void PointPlacement::keep_off_wall(const CellGrid& grid, const std::vector<ImmersedGrain>& grains,
-                                   int a, int b, const Eigen::Vector3d& apart, double reach) {
-    const ImmersedGrain& wall = grains[b];
-    const double outer = grains[a].radius + wall.radius + reach;
+                                   int a, int b, const Eigen::Vector3d& apart) {
+    const ImmersedGrain &grain = grains[a], &wall = grains[b];
+    const double outer = grain.radius + wall.radius +
+                         rules_.wall_distance * std::max(local_size_[a], local_size_[b]);
     const Eigen::Matrix3d to_body = wall.orientation.transpose();
     for_images(grid, apart, outer, [&](const Eigen::Vector3d& from_image) {
-        for (int c = first_[a]; c < first_[a + 1]; ++c)
-            if (candidates_[c].fate != Fate::near_wall &&
-                wall.shape->least_distance(to_body * (from_image + candidates_[c].arm),
-                                           wall.radius) <= reach)
-                candidates_[c].fate = Fate::near_wall;
+        for (int c = first_[a]; c < first_[a + 1]; ++c) {
+            Candidate& candidate = candidates_[c];
+            if (candidate.fate == Fate::near_wall) continue;
+            const double size = stencil_size(grid, grain.position + candidate.arm);
+            if (wall.shape->least_distance(to_body * (from_image + candidate.arm), wall.radius) <=
+                rules_.wall_distance * size)
+                candidate.fate = Fate::near_wall;
+        }
     });
 }
 
 void PointPlacement::compare(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a,
                              int b) {
-    const double size = std::max(local_size_[a], local_size_[b]);
-    const bool is_wall = !grains[b].has_boundary_points;
-    const double reach = size * (is_wall ? rules_.wall_distance : rules_.spacing);
-    const double outer = grains[b].radius + reach;
     const Eigen::Vector3d apart = grid.nearest_image(grains[a].position - grains[b].position);
-    if (is_wall) return keep_off_wall(grid, grains, a, b, apart, reach);
+    if (!grains[b].has_boundary_points) return keep_off_wall(grid, grains, a, b, apart);
+    const double reach = rules_.spacing * std::max(local_size_[a], local_size_[b]);
+    const double outer = grains[b].radius + reach;
     // Also the second nearest image: across a short period two grains touch on both sides, and a
     // grain may touch itself.
     for_images(grid, apart, grains[a].radius + outer, [&](const Eigen::Vector3d& from_image) {

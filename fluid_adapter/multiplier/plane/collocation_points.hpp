@@ -15,7 +15,8 @@
 //
 // The rules, in this order. Rules 1-3 are applied to all candidates, not to those that survive an
 // earlier rule, so that the result does not depend on the numbering of the grains. Lengths in cells
-// refer to the longest edge of the cells around a grain, in rule 1 to the cell at the point.
+// refer to the longest edge of the cells around a grain, in rule 1 to that of the cell at the point
+// for a side of the box, and of those within two cells of the point for a body.
 //
 //   1. A boundary point closer than 2 cells to a wall, or to a body that has interior points only,
 //      is dropped.
@@ -131,7 +132,7 @@ class PointPlacement {
                        const Eigen::Vector3d& apart, double reach);
     bool meets_itself(const CellGrid& grid, const ImmersedGrain& grain, double size) const;
     void keep_off_wall(const CellGrid& grid, const std::vector<ImmersedGrain>& grains, int a, int b,
-                       const Eigen::Vector3d& apart, double reach);
+                       const Eigen::Vector3d& apart);
     void collect_boundary(const FluidField& field, const std::vector<ImmersedGrain>& grains,
                           CollocationPoints& points);
     void collect_ring(const FluidField& field, const ImmersedGrain& grain, int g,

@@ -13,6 +13,16 @@ namespace {
 
 constexpr int x = 0, y = 1, z = 2;
 
+/// Whether two bodies are parts of one rigid body, whatever their pivots:
+/// v_a = v_b + omega x (X_a - X_b), to rounding.
+bool move_as_one(const ImmersedGrain& a, const ImmersedGrain& b) {
+    const Twist &own = a.contact_motion, &other = b.contact_motion;
+    const Eigen::Vector3d arm = a.position - b.position;
+    const double speeds = norm(own.velocity) + norm(other.velocity) + norm(own.spin) * arm.norm();
+    return own.spin == other.spin &&
+           norm(own.velocity - other.at({arm.x(), arm.y(), arm.z()})) <= 1e-12 * speeds;
+}
+
 }  // namespace
 
 void SphereCells::find(const std::vector<ImmersedGrain>& grains) {
@@ -36,11 +46,9 @@ void SphereCells::find(const std::vector<ImmersedGrain>& grains) {
 int SphereCells::owner_of_wall(int wall) const {
     const ImmersedGrain& own = (*grains_)[wall];
     if (own.contact_motion.at_rest()) return CellOwners::wall;
-    const auto moves_with_it = [&](const ImmersedGrain& body) {
-        const bool same_arm = own.contact_motion.spin == Vec3{} || body.position == own.position;
-        return body.wall != nullptr && body.contact_motion == own.contact_motion && same_arm;
-    };
-    const auto first = std::find_if(grains_->begin(), grains_->end(), moves_with_it);
+    const auto first = std::find_if(
+        grains_->begin(), grains_->end(),
+        [&](const ImmersedGrain& body) { return body.wall && move_as_one(own, body); });
     return static_cast<int>(first - grains_->begin());
 }
 

@@ -94,6 +94,14 @@ std::optional<double> equal_height(const Settings& settings) {
     return rows ? std::optional(rows->equal_height()) : std::nullopt;
 }
 
+/// R_h/R = h + s/(cells per R) of a grain of this radius [D]; s in space only.
+double seen_radius(const Settings& settings, double radius) {
+    const double seen = settings.real("fluid.hydrodynamic_radius");
+    if (!in_space(settings)) return seen;
+    const double cells = settings.real("fluid.cells_per_diameter") * radius;
+    return seen + settings.real("fluid.surface_shift") / cells;
+}
+
 std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
     std::vector<GrainRule> rules;
     const double cells = settings.real("fluid.cells_per_diameter");
@@ -110,12 +118,14 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
                      },
                      fmt::format("A grain in a fluid is at least {:.0f} cells wide.", least),
                      "Use more fluid.cells_per_diameter or larger grains."});
+    // Of the cells that it covers, too (FluidWindow::check_rows)
+    const auto top = [&settings](const PlacedGrain& g) {
+        return g.y + g.radius * std::max(1.0, seen_radius(settings, g.radius));
+    };
     if (const auto height = equal_height(settings))
         rules.push_back(
-            {[top = *height](const PlacedGrain& g) { return g.y + g.radius > top * (1.0 + 1e-12); },
-             [](const PlacedGrain& g) {
-                 return fmt::format("reaches y = {:.4g} D", g.y + g.radius);
-             },
+            {[=](const PlacedGrain& g) { return top(g) > *height * (1.0 + 1e-12); },
+             [=](const PlacedGrain& g) { return fmt::format("reaches y = {:.4g} D", top(g)); },
              fmt::format("Grains stay where rows of cells are equal, below {:.4g} D "
                          "(fluid.stretch_from = {}).",
                          *height, settings.text("fluid.stretch_from")),
@@ -133,14 +143,6 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
              "Use coupling.scheme: joint, or a density above 1 (in space: (1 + fluid.surface_shift "
              "/ cells per radius)^5)."});
     return rules;
-}
-
-/// R_h/R = h + s/(cells per R) of a grain of this radius [D]; s in space only.
-double seen_radius(const Settings& settings, double radius) {
-    const double seen = settings.real("fluid.hydrodynamic_radius");
-    if (!in_space(settings)) return seen;
-    const double cells = settings.real("fluid.cells_per_diameter") * radius;
-    return seen + settings.real("fluid.surface_shift") / cells;
 }
 
 /// Where pressure does not know the grains, a projection leaves a body the share 1/(1 + C_a) of its

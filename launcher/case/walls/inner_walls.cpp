@@ -10,7 +10,7 @@
 #include <map>
 
 #include "coupler/keys/key_value.hpp"
-#include "coupler/protocol/scene/mesh_rows.hpp"
+#include "coupler/shapes/tight_wall.hpp"
 #include "launcher/case/files/csv_table.hpp"
 #include "launcher/case/walls/space_walls.hpp"
 
@@ -104,32 +104,18 @@ Vec3 extent_of(const InnerWall& wall) {
     return {x + face * y, y + face * x, 0.0};
 }
 
-/// The largest part along y of the normals of a wall.
-double upright_normal(const InnerWall& wall) {
-    if (!wall.space) {
-        const double x = wall.to[0] - wall.from[0], y = wall.to[1] - wall.from[1];
-        return std::abs(x) / std::hypot(x, y);
-    }
-    const SpaceForm& form = *wall.space;
-    const auto along_y = [](const Vec3& v) { return std::abs(v[1]) / norm(v); };
-    if (form.kind == SpaceWallKind::plate) return along_y(cross(form.a, form.b));
-    const double axis = along_y(form.a);
-    if (form.kind == SpaceWallKind::ring) return axis;
-    return form.kind == SpaceWallKind::cylinder ? std::sqrt(1.0 - axis * axis) : 1.0;
+WallSurface surface_of(const InnerWall& wall) {
+    if (wall.space) return surface_of(*wall.space);
+    return surface_of_plate({wall.from[0], wall.from[1], 0.0}, {wall.to[0], wall.to[1], 0.0});
 }
 
-/// Of the row of cells at a height, the highest above the last one; nothing without a mesh [D].
-std::optional<double> row_height(const Settings& settings, double y) {
+/// Equal ones where the case has no box or mesh, which others refuse [D].
+MeshRows rows_of(const Settings& settings) {
+    MeshRows equal;
+    equal.height = 1.0 / settings.real("fluid.cells_per_diameter");
+    if (!settings.has("domain.size")) return equal;
     const auto size = real_list("domain.size", settings.text("domain.size"));
-    const std::optional<MeshRows> rows = mesh_rows(settings, size.at(1));
-    if (!rows) return std::nullopt;
-    double top = rows->equal_height();
-    if (y <= top * (1.0 + 1e-12)) return rows->height;
-    for (const double height : rows->stretched) {
-        top += height;
-        if (y <= top) return height;
-    }
-    return rows->largest();
+    return mesh_rows(settings, size.at(1)).value_or(equal);
 }
 
 /// Of the box, and where it repeats.
@@ -336,14 +322,10 @@ std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const 
 std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
                                          const std::string& source, const Settings& settings) {
     std::vector<CaseProblem> problems;
-    const double cell = 1.0 / settings.real("fluid.cells_per_diameter");
+    const MeshRows rows = rows_of(settings);
     for (const InnerWall& wall : walls) {
-        const double top = centre_of(wall)[1] + 0.5 * extent_of(wall)[1];
-        // Across a row the way through a wall of thickness t is t/|n_y|.
-        const double row = row_height(settings, top).value_or(cell);
-        const double least = least_cells_of_plate * std::max(cell, row * upright_normal(wall));
-        // Exactly two cells are enough, to rounding.
-        if (wall.thickness < least * (1.0 - 1e-12))
+        const double least = least_thickness(surface_of(wall), wall.thickness, rows);
+        if (is_too_thin(wall.thickness, least))
             problems.push_back(
                 {.source = source,
                  .line = 0,
@@ -352,11 +334,11 @@ std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
                  .fault = fmt::format("wall {}: thickness = {:.4g} D", wall.id, wall.thickness),
                  .allowed = fmt::format("The fluid would pass through it: at least {:.0f} cells, "
                                         "here {:.4g} D.",
-                                        least_cells_of_plate, least),
-                 .remedy = row > cell ? "Give a column thickness, or use a larger "
-                                        "fluid.stretch_from."
-                                      : "Give a column thickness, or use more "
-                                        "fluid.cells_per_diameter."});
+                                        least_cells_of_wall, least),
+                 .remedy = least > least_cells_of_wall * rows.height
+                               ? "Give a column thickness, or use a larger fluid.stretch_from."
+                               : "Give a column thickness, or use more "
+                                 "fluid.cells_per_diameter."});
     }
     return problems;
 }

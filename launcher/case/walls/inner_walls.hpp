@@ -66,11 +66,9 @@ std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const 
                                      const std::string& source,
                                      double tolerance = touching_tolerance);
 
-/// The fluid passes through plates thinner than this [cells].
-constexpr double least_cells_of_plate = 2.0;
-
-/// Reports walls that are too thin for the cells of the fluid that they reach, where rows are
-/// stretched upwards too.
+/// Reports walls that are too thin for the cells of the fluid that they reach at the start, where
+/// rows are stretched upwards too (coupler/shapes/tight_wall.hpp). The fluid refuses those that
+/// move to where they are too thin.
 std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
                                          const std::string& source, const Settings& settings);
 

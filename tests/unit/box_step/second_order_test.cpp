@@ -200,6 +200,32 @@ TEST(SecondOrder, CutsWindowsByCourantNumberAndDecay) {
     cut(std::numeric_limits<double>::quiet_NaN(), 0.1, 1, true);  // refused elsewhere
 }
 
+/// A stream that sets in at once is carried by the flux of the window's middle, 3/2 of its own; in
+/// the next window by its own.
+TEST(SecondOrder, TellsTheCourantNumberOfTheFluxThatIsCarried) {
+    constexpr int n = 16;
+    constexpr double dt = 1.2 / n;
+    const AxisOperator axis{n, 1.0 / n, End::periodic, End::periodic};
+    BoxFluid fluid;
+    fluid.velocity = fluid.pressure = {axis, axis};
+    fluid.second_order = true;
+    for (const bool rigid_grains : {false, true}) {
+        BoxStep step(fluid);
+        const auto stream = [&](double u, bool begins) {
+            std::fill_n(step.velocity(0), step.cells(), u);
+            if (!rigid_grains) return step.project_and_hold_middle(dt, begins);
+            FluxReport report = step.hold_solenoidal_flux(dt);
+            report.carried_courant = step.hold_middle_flux(dt, begins);
+            return report;
+        };
+        stream(0.0, true);
+        const FluxReport sets_in = stream(1.0, false), goes_on = stream(1.0, false);
+        EXPECT_NEAR(sets_in.courant, 1.2, 1e-12);
+        EXPECT_NEAR(sets_in.carried_courant, 1.8, 1e-12);
+        EXPECT_NEAR(goes_on.carried_courant, 1.2, 1e-12);
+    }
+}
+
 TEST(SecondOrder, KnowsTheStableCourantNumberOfAScheme) {
     EXPECT_EQ(SecondOrder::largest_courant(1.0), 1.5);   // linear: 1.73
     EXPECT_EQ(SecondOrder::largest_courant(lust), 1.5);  // 1.91

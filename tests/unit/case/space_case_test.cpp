@@ -459,6 +459,19 @@ TEST_F(SpaceCase, GrainsOfAFluidArePouredWithoutIt) {
     EXPECT_GT(pouring.settings.real("run.size_y"), 6.0);
 }
 
+// The fluid sees it beyond its surface: it would refuse its first window.
+TEST_F(SpaceCase, ASphereThatTheFluidSeesInStretchedRowsIsRefused) {
+    folder.write("g.csv", "id,x,y,z\n7,3,4.5,3\n");
+    const std::vector<std::string> wet = {"grains.file=g.csv",          "fluid.enabled=true",
+                                          "fluid.reynolds=10",          "fluid.surface_shift=0.3",
+                                          "fluid.cells_per_diameter=8", "fluid.stretch_ratio=1.05",
+                                          "coupling.scheme=joint",      "fluid.stretch_from=5"};
+    EXPECT_SAYS(refusal("", wet), "grain 7: reaches y = 5.037 D");
+    std::vector<std::string> bare = wet;
+    bare.push_back("fluid.surface_shift=0");
+    EXPECT_EQ(refusal("", bare), "");
+}
+
 TEST_F(SpaceCase, EveryHostPlaysIt) {
     for (const std::string adapter :
          {"yade-nscd", "standalone-nscd", "yade-md", "lammps-md", "standalone-md"})

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/run_settings.hpp"
@@ -291,6 +292,26 @@ TEST(FluidWindow, FieldsFollowOnlyForThoseWhoLook) {
         EXPECT_EQ(scene.store.fluxes, window - 1);
         EXPECT_NE(scene.store.shown_x, 0.0);
         EXPECT_EQ(scene.store.shown_x, scene.store.field().velocity(0)[0]) << "of its end";
+    }
+}
+
+/// A stream that sets in at once, with a Courant number of 1.2: its window carries it with 3/2 of
+/// it, of which LUST bears 1.5 in one part.
+TEST(FluidWindow, PartsOfTransportBearTheFluxThatIsCarried) {
+    for (const char* splitting : {"marchuk-yanenko", "explicit-multiplier"}) {
+        WatchedStore store(cells, edge, 0.01, corrects(splitting), Side::cyclic);
+        FluidWindow window(store, settings(splitting), {{"disc", {}}});
+        for (std::int64_t index = 0; index < 3; ++index) {
+            std::fill_n(store.field().velocity(0), store.field().owned_cells(),
+                        index > 0 ? 1.2 * edge / step : 0.0);
+            window.advance(window_at(index, true));
+            window.correct({});
+            const double courant = window.impose().report.courant;
+            EXPECT_NEAR(courant, index > 0 ? 1.2 : 0.0, 1e-9) << "that of the velocity";
+            const std::string expected =
+                index == 1 ? "transport in 2 parts" : "transport in 1 parts";
+            EXPECT_NE(store.lines.back().find(expected), std::string::npos) << store.lines.back();
+        }
     }
 }
 

@@ -271,6 +271,39 @@ TEST(CollocationPoints, AGrainBesideAPlateIsAsBesideAWall) {
     EXPECT_EQ(both.interior_begin[2] - both.interior_begin[1], alone.interior_begin[1]);
 }
 
+/// Edges of 64 rows: `equal` of height h, the others each 1.1 times as high as the one below.
+std::vector<double> rows_that_grow(int equal) {
+    std::vector<double> edges = {0.0};
+    for (double height = h; edges.size() <= 64; edges.push_back(edges.back() + height))
+        if (static_cast<int>(edges.size()) > equal) height *= 1.1;
+    return edges;
+}
+
+// A long plate has high rows within its length of its middle, not at the disc.
+TEST(CollocationPoints, RowsFarFromAGrainDropNoneOfItsPoints) {
+    const std::vector<ImmersedGrain> bodies = {disc(1, 3.013, 1.0 + h + 0.55),
+                                               plate(2, 3.0, 1.0, 3.0, 0.0)};
+    const MemoryField equal(96, rows_that_grow(64), Side::wall, h),
+        stretched(96, rows_that_grow(40), Side::wall, h);
+    const CollocationPoints expected = place(equal, bodies), found = place(stretched, bodies);
+    EXPECT_GT(expected.dropped.near_wall, 0);
+    EXPECT_EQ(found.dropped.near_wall, expected.dropped.near_wall);
+    EXPECT_EQ(boundary_points(found, 0), boundary_points(expected, 0));
+}
+
+// Where rows begin to grow a stencil reaches more than two of the cells at its point.
+TEST(CollocationPoints, APlateInHigherRowsKeepsItsCells) {
+    const MemoryField field(96, rows_that_grow(24), Side::wall, h);
+    for (int k = 0; k < 400; ++k) {
+        const double y = 2.0 + 0.01 * (k % 20);
+        const ImmersedGrain wall = plate(2, 3.0, y, 2.5, 0.0),
+                            below = disc(1, 3.013, y - 0.8 + 0.0005 * k);
+        const CollocationPoints alone = place(field, {wall}), both = place(field, {below, wall});
+        EXPECT_GT(boundary_points(both, 0), 10);
+        EXPECT_EQ(both.interior_begin[2] - both.interior_begin[1], alone.interior_begin[1]) << k;
+    }
+}
+
 // Long bodies are near many; every pair is found once.
 TEST(Neighbours, OfBodiesOfAllSizes) {
     MemoryField field(96, 96, Side::cyclic);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <string>
 
+#include "coupler/protocol/failure.hpp"
 #include "tests/run_settings.hpp"
 #include "tests/unit/multiplier/memory_field.hpp"
 
@@ -324,6 +326,48 @@ TEST(ImmersedStep, AGrainOnItsWayOutMovesAlikeBeforeAndAfterContacts) {
         // It has fallen by less than cM alone would.
         EXPECT_GT(found.velocity[1], -0.1 - 0.6 * step) << x;
     }
+}
+
+/// What is said of walls in rows of D/8 that grow above 6 D, at a time; empty: nothing.
+std::string refusal_of(const std::string& walls, double time, std::int64_t dimension = 2) {
+    Settings rows = settings();
+    rows.set("fluid.cells_per_diameter", std::int64_t{8});
+    rows.set("fluid.stretch_from", 6.0);
+    rows.set("fluid.stretch_ratio", 1.1);
+    rows.set("fluid.stretch_largest", 8.0);
+    rows.set("run.dimension", dimension);
+    rows.set("run.acceleration_z", 0.0);
+    for (const char* side : {"domain.front", "domain.back"}) rows.set(side, std::string("wall"));
+    rows.set("run.walls", walls);
+    std::vector<ImmersedGrain> bodies;
+    ImmersedWalls immersed(rows);
+    try {
+        immersed.append(time, step, bodies);
+    } catch (const PhysicsRefused& refused) {
+        return refused.what();
+    }
+    return "";
+}
+
+// Two cells thick, they rise by 1 D per t_c.
+TEST(ImmersedWalls, ThatMoveToRowsTooHighForThemAreRefused) {
+    const std::string shelf = "3 4 4 6 4 0 1 0 5 4 0.3 0.25",
+                      gate = "4 5 4 5 5 0 1 0 5 4.5 0.3 0.25";
+    EXPECT_EQ(refusal_of(shelf, 1.8), "");
+    EXPECT_NE(refusal_of(shelf, 2.5).find("wall 3 has come to higher rows"), std::string::npos);
+    EXPECT_EQ(refusal_of(gate, 4.0), "") << "no row is across it";
+    const std::string turning = "5 5 6.5 5 8.5 0 0 1 5 7.5 0.3 0.25";
+    EXPECT_EQ(refusal_of(turning, 0.0), "");
+    EXPECT_NE(refusal_of(turning, 1.5), "");
+}
+
+TEST(ImmersedWalls, InSpaceThatMoveToRowsTooHighForThemAreRefused) {
+    const std::string rising = " 0.25 0 1 0 0 0 0 5 4 5 0.3 -1";
+    const std::string disc = "7 ring 5 4 5 0 1 0 0 0 0 0 1" + rising,
+                      pipe = "8 cylinder 5 4 5 0 1 0 0 0 0 1 0" + rising;
+    EXPECT_EQ(refusal_of(disc, 1.8, 3), "");
+    EXPECT_NE(refusal_of(disc, 2.5, 3).find("wall 7 has come to higher rows"), std::string::npos);
+    EXPECT_EQ(refusal_of(pipe, 2.5, 3), "");
 }
 
 }  // namespace

@@ -80,6 +80,17 @@ std::size_t reached(const SpaceField& field, std::vector<int> owner, const CellP
     return count;
 }
 
+/// Of a cylinder, two discs and a cone along a unit vector, 1.8 high.
+std::vector<SpaceWall> closed_can(const Vec3& foot, const Vec3& up) {
+    SpaceWall shell = at_rest(SpaceWallKind::cylinder, foot, 1.2 * up);
+    shell.radius = 0.9;
+    SpaceWall floor = at_rest(SpaceWallKind::ring, foot, up);
+    floor.radius2 = 0.9;
+    SpaceWall lid = at_rest(SpaceWallKind::ring, foot + 1.8 * up, up);
+    lid.radius2 = 0.4;
+    return {shell, floor, lid, cone(foot + 1.2 * up, 0.6 * up, 0.9, 0.4)};
+}
+
 /// A plate across a box in any direction, and a closed can of a cylinder, a cone and two discs:
 /// what is on one side cannot be reached from the other.
 TEST(WallCells, OfTwoCellsLetNoFluidThrough) {
@@ -103,13 +114,7 @@ TEST(WallCells, OfTwoCellsLetNoFluidThrough) {
         EXPECT_GT(side, free / 5) << trial;
 
         const Vec3 up = way({0.0, 1.0, 0.0}), foot = middle - 1.0 * up;
-        SpaceWall shell = at_rest(SpaceWallKind::cylinder, foot, 1.2 * up);
-        shell.radius = 0.9;
-        SpaceWall floor = at_rest(SpaceWallKind::ring, foot, up);
-        floor.radius2 = 0.9;
-        SpaceWall lid = at_rest(SpaceWallKind::ring, foot + 1.8 * up, up);
-        lid.radius2 = 0.4;
-        const Walls can({shell, floor, lid, cone(foot + 1.2 * up, 0.6 * up, 0.9, 0.4)});
+        const Walls can(closed_can(foot, up));
         cells.find(can.bodies);
         const std::vector<int> owner_in_can = found_owners(field, cells, 4);
         const CellGrid& grid = field.grid();
@@ -121,6 +126,27 @@ TEST(WallCells, OfTwoCellsLetNoFluidThrough) {
         EXPECT_LT(inside, 3500u) << trial;
         EXPECT_TRUE(cells.find_wedges().sides().empty()) << "fluid leaks where walls at rest meet";
     }
+}
+
+/// Each of its walls has its own place for a pivot, on the axis: they are one body as long as they
+/// turn alike.
+TEST(WallCells, OfACanThatTurnsHaveNoFilmsAtItsJoints) {
+    const SpaceField field({31, 30, 32}, Side::wall);
+    const Rotation way = rotation(Vec3{0.4, -1.1, 0.7});
+    const Vec3 up = way({0.0, 1.0, 0.0});
+    std::vector<SpaceWall> walls = closed_can(Vec3{1.55, 1.5, 1.6} - 0.9 * up, up);
+    const auto films = [&] {
+        const Walls can(walls);
+        SphereCells cells(field.layers());
+        cells.find(can.bodies);
+        return cells.find_wedges().sides().size();
+    };
+    for (SpaceWall& wall : walls) wall.motion = constant_motion({{0.1, 0.0, 0.2}, 3.0 * up});
+    EXPECT_EQ(films(), 0u);
+    walls[2].motion = constant_motion({{0.1, 0.0, 0.2}, 2.0 * up});
+    EXPECT_GT(films(), 20u) << "the lid turns more slowly";
+    walls[2].motion = constant_motion({{0.1, 0.0, 0.3}, 3.0 * up});
+    EXPECT_GT(films(), 20u) << "the lid slides off";
 }
 
 /// Two layers of centres lie within two cells, wherever the plate is; three where they lie just on

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <random>
+
+#include "coupler/shapes/tight_wall.hpp"
 
 namespace turbidite {
 namespace {
@@ -107,6 +110,24 @@ TEST(WallSurface, ATurnAboutItsAxisLeavesARoundOneWhereItIs) {
         wall.pivot = wall.pivot + Vec3{0.0, 0.0, 0.01};
         EXPECT_FALSE(place(wall, 2.1, 0.1).surface == surface_of(wall));
     }
+}
+
+/// Rows of 1 D above very small ones: the least thickness is twice the largest |n_y|.
+TEST(TightWall, HasTwoRowsAlongItsMostUprightNormal) {
+    MeshRows rows;
+    rows.height = 1e-3;
+    rows.stretched = {1.0};
+    const auto normal = [&](SpaceWallKind kind) {
+        return 0.5 * least_thickness(surface_of(wall_of(kind)), 0.1, rows);
+    };
+    const SpaceWall plate = wall_of(SpaceWallKind::plate);
+    const Vec3 across = cross(plate.a, plate.b);
+    EXPECT_NEAR(normal(SpaceWallKind::plate), std::abs(across[1]) / norm(across), 1e-12);
+    // The axis is (2, -1, 2)/3; the cone is 3 long and gets wider by 1.2.
+    const double circle = std::sqrt(8.0 / 9.0);
+    EXPECT_NEAR(normal(SpaceWallKind::ring), 1.0 / 3.0, 1e-12);
+    EXPECT_NEAR(normal(SpaceWallKind::cylinder), circle, 1e-12);
+    EXPECT_NEAR(normal(SpaceWallKind::cone), (3.0 * circle + 0.4) / std::hypot(3.0, 1.2), 1e-12);
 }
 
 }  // namespace
