@@ -14,6 +14,10 @@
 
 namespace turbidite::nscd {
 
+// Cost of a new layout per group, in updates of a group. A new layout is made when the updates it
+// would have saved since the last one add up to its cost.
+inline constexpr double layout_cost = 12.0;
+
 // With fewer contacts than this, one thread is faster (docs/performance.md).
 inline constexpr std::size_t threaded_contacts = 6000;
 
@@ -203,7 +207,7 @@ class NlgsIteration {
     /// total at most twice the cost of knowing the future (the ski-rental rule).
     void adapt(std::int64_t sweeps, const SweepCheck& found) {
         wasted_ += static_cast<double>(sweeps) * (found.visited - found.loaded / Rows::width);
-        if (wasted_ < Rows::layout_cost * found.all) return;
+        if (wasted_ < layout_cost * found.all) return;
         layout_->rearrange(schedule(layout_->loaded(pairs_.size())));
         wasted_ = 0.0;
     }

@@ -6,7 +6,6 @@
 // A kind of contact (contact_kind.hpp) gives for its rows
 //
 //     Rows::width, Rows::Body, Rows::Base    lanes; the data of a body; where `a` and `b` are
-//     Rows::layout_cost                      of a new layout per group, in updates of a group
 //     rows.a, rows.b, rows.rn                slots of the bodies, normal impulses
 //     fill(rows, lane, contact)              packs a contact, from a ContactToPack
 //     fill_empty(rows, lane, slot)           a lane without one, which never closes

@@ -110,7 +110,6 @@ void set_rates(SphereBody& to, const double* from) {
 
 struct SphereRows {
     static constexpr int width = 1;
-    static constexpr double layout_cost = 12.0;
     using Base = SphereRows;
     using Body = SphereBody;
 

@@ -24,7 +24,6 @@ struct alignas(32) PlaneBody {
 template <int lanes>
 struct RowBase {
     static constexpr int width = lanes;
-    static constexpr double layout_cost = 12.0;
     using Base = RowBase;
     using Body = PlaneBody;
     using Values = Lanes<lanes>;

@@ -26,7 +26,6 @@ struct alignas(64) SphereBody {
 template <int lanes>
 struct alignas(32) SphereRows {
     static constexpr int width = lanes;
-    static constexpr double layout_cost = 5.0;
     using Base = SphereRows;
     using Body = SphereBody;
     using Values = Lanes<lanes>;
