@@ -214,21 +214,9 @@ void LammpsMdHost::keep(const std::vector<std::uint8_t>& mask) {
         if (mask[place]) stays.push_back({ranks_.own, int(place)});
     // LAMMPS deletes grains in a command of all ranks, which needs the same list everywhere.
     const std::vector<std::int64_t> gone = gather_all(mine, ranks_.communicator);
-    migrated_ = false;
     if (gone.empty()) return;
     grains_->remove(gone);
     grains_->number(stays, ranks_.own);
-    find_neighbours();
-}
-
-/// A run of no sub-steps, in which grains may arrive here from other ranks. Between runs LAMMPS
-/// keeps the springs with the grains; to write a restart file it takes them from the list of
-/// neighbours of the last run, which after a removal is that of other grains, and after a restart
-/// is not there.
-void LammpsMdHost::find_neighbours() {
-    present_ = {lammps_->step(), lammps_->step()};
-    lammps_->command("run 0 post no");
-    follow_grains();
 }
 
 // ---- state -----------------------------------------------------------------------------------
@@ -239,6 +227,14 @@ SavedState LammpsMdHost::save() const {
     const StateFile file(ranks_.communicator);
     lammps_->command("write_restart " + file.name() + " noinit");
     return ranks_.own == 0 ? file.read() : SavedState{};
+}
+
+/// A run of no sub-steps: springs that were read belong to the grains until the list of neighbours
+/// has them, from which a restart file takes them. Grains may arrive here from other ranks.
+void LammpsMdHost::find_neighbours() {
+    present_ = {lammps_->step(), lammps_->step()};
+    lammps_->command("run 0 post no");
+    follow_grains();
 }
 
 void LammpsMdHost::restore(const SavedState& state) {

@@ -296,7 +296,6 @@ void MdAdapter::remove_leavers() {
     if (present_.contacts) drop_contacts_of(host_.from_all_ranks(gone), *present_.contacts);
     bodies_.keep(stays);
     host_.keep(stays);
-    follow_migration(nullptr);
 }
 
 /// Bodies, with those at the protocol's positions if they are given, and what they hold, after the

@@ -89,8 +89,8 @@ class MdHost {
     /// Whether there are other ranks, with which bodies are exchanged.
     virtual bool shares_bodies() const { return false; }
 
-    /// Whether bodies changed their rank in the last create(), run(), keep() or restore(); the same
-    /// on all ranks. Reports of that call already have the new order.
+    /// Whether bodies changed their rank in the last create(), run() or restore(); the same on all
+    /// ranks. Reports of that call already have the new order.
     virtual bool migrated() const { return false; }
 
     /// `rows` has `row_size` bytes for each body that this rank had before; returns those of the

@@ -158,5 +158,38 @@ TEST(Collisions, AStateHasTheSprings) {
     EXPECT_GT(std::abs(without.bodies.position[0][0] - x), 1e-7);
 }
 
+/// Two discs that are pressed against each other and pushed apart along their contact, which a
+/// tangential spring holds.
+struct Pressed {
+    Pressed() { play(loads); }
+
+    void play(const std::vector<Load>& acting) {
+        scene.host.run({2000, 5.0 * fine, false}, acting);
+        scene.host.read(scene.bodies);
+    }
+
+    static Settings settings() {
+        Settings result = damped(1.0);
+        result.set("run.gravity", 0.0);
+        return result;
+    }
+
+    const std::vector<nscd::Body> list = {disc(2, 3.0, 5.0), disc(3, 4.0, 5.0)};
+    /// Of a thousandth of a diameter of overlap, and a tenth of that along the contact.
+    const double force = 5e-4 * list[0].mass * frequency * frequency;
+    const std::vector<Load> loads = {{{force, 0.1 * force, 0.0}, {0.0, 0.0, 0.05 * force}},
+                                     {{-force, -0.1 * force, 0.0}, {0.0, 0.0, 0.05 * force}}};
+    Scene scene{settings(), list};
+};
+
+// The first window of a resumed run whose windows are repeated begins with that.
+TEST(Collisions, ARestoredSceneCanBeSavedBeforeItsFirstStep) {
+    Pressed first, second, third;
+    second.scene.host.restore(first.scene.host.save());
+    third.scene.host.restore(second.scene.host.save());
+    for (Pressed* one : {&first, &third}) one->play(one->loads);
+    EXPECT_NEAR(third.scene.bodies.position[1][1], first.scene.bodies.position[1][1], 1e-14);
+}
+
 }  // namespace
 }  // namespace turbidite::lammps
