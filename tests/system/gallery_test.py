@@ -51,6 +51,16 @@ class Gallery(unittest.TestCase):
         self.assertGreater(len(studies), 5)
         self.assertEqual({name for name, entry in self.entries().items() if entry['study']}, studies)
 
+    def test_what_is_expected_of_a_study_is_of_its_parts(self):
+        found = set()
+        for name, entry in self.entries().items():
+            parts = re.findall(r'^  ([\w-]+):', (self.configs / f'{name}.yaml').read_text().partition('\nparts:')[2], re.M)
+            expected = {one['run'].partition('/')[0] for form in ('full', 'quick') for one in (entry[form] or {}).get('expected', [])
+                        if '/' in one['run']}
+            self.assertLessEqual(expected, set(parts), name)
+            found |= expected
+        self.assertGreater(len(found), 5)
+
     def test_the_list_names_what_is_recorded(self):
         listed = self.gallery()
         self.assertEqual(listed.returncode, 0, listed.stderr)
