@@ -16,9 +16,11 @@ bool divides(std::int64_t period, std::int64_t windows) {
 CheckpointRule::CheckpointRule(const Settings& settings, const RunValues& run) {
     const double interval =
         settings.has("checkpoint.interval") ? settings.real("checkpoint.interval") : 0.0;
-    if (interval > 0.0)
-        // [t_c] to whole windows, at least one.
-        by_time_ = std::max<std::int64_t>(1, std::llround(interval * run.time / run.step));
+    if (interval > 0.0) {
+        // [t_c] to whole windows, at least one. llround is undefined beyond 64 bits.
+        const double windows = std::min(interval * run.time / run.step, 9e18);
+        by_time_ = std::max<std::int64_t>(1, std::llround(windows));
+    }
     if (settings.has("checkpoint.windows")) by_count_ = settings.integer("checkpoint.windows");
     if (settings.has("checkpoint.wall_minutes"))
         wall_ = std::chrono::duration<double>(60.0 * settings.real("checkpoint.wall_minutes"));

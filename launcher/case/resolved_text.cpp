@@ -49,9 +49,9 @@ bool is_written(const KeySpec& key, const Settings& settings) {
 }  // namespace
 
 std::string resolved_text(const Settings& settings, std::size_t grains, const NamedTexts& texts) {
-    std::string text = fmt::format(
-        "# Resolved case: every key, defaults filled in.\n# {} grains, fingerprint {}\n", grains,
-        case_hash(texts.grains));
+    std::string text =
+        fmt::format("{} every key, defaults filled in.\n# {} grains, fingerprint {}\n",
+                    resolved_head, grains, case_hash(texts.grains));
     const auto fingerprint = [&](const char* of, const std::string& file) {
         if (!file.empty()) text += fmt::format("# {}, fingerprint {}\n", of, case_hash(file));
     };

@@ -11,6 +11,9 @@
 
 namespace turbidite {
 
+/// How the text begins; a case that somebody writes does not.
+inline constexpr const char* resolved_head = "# Resolved case:";
+
 /// What stands in the files that a case names; all but the grains may be empty.
 struct NamedTexts {
     const std::string &grains, &walls, &script, &functions;

@@ -65,8 +65,11 @@ void set_run_times(Settings& settings, double time_scale) {
     settings.set("run.windows", std::int64_t{windows});
     settings.set("run.output_every", std::int64_t{every});
     if (!settings.has("output.fields_interval")) return;
-    const double outputs = settings.real("output.fields_interval") / (step * every);
-    settings.set("run.fields_every", std::int64_t{every * std::max(1LL, std::llround(outputs))});
+    // One beyond the end means the end here too.
+    const double fields =
+        std::min(settings.real("output.fields_interval"), settings.real("time.end"));
+    const auto outputs = std::max(1LL, std::llround(fields / (step * every)));
+    settings.set("run.fields_every", std::int64_t{every * outputs});
 }
 
 /// output.probes in run units: x and y, in space also z, of each point, one after the other.

@@ -17,6 +17,7 @@
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/case/resolved_text.hpp"
 #include "launcher/job/folder/openfoam_path.hpp"
 #include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/folder/run_on_disk.hpp"
@@ -69,8 +70,15 @@ bool holds_something(const RunFolder& folder) {
                        });
 }
 
+/// A user's own folder may have a case.yaml too.
+bool is_resolved_case(const fs::path& file) {
+    std::ifstream in(file);
+    std::string first;
+    return std::getline(in, first) && first.rfind(resolved_head, 0) == 0;
+}
+
 bool is_run_folder(const RunFolder& folder) {
-    return fs::exists(folder.resolved_case()) || fs::exists(folder.record());
+    return fs::exists(folder.record()) || is_resolved_case(folder.resolved_case());
 }
 
 // Removes only what a run writes, so that a mistyped --out with --force deletes nothing else.

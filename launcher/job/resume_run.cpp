@@ -97,19 +97,19 @@ bool is_given(const std::string& key, const std::vector<std::string>& overrides)
 /// "contact.friction is 0.5, in the checkpoint 0.3", one line per key. A setting that one of the
 /// two does not have at all is one that only the version of the other knows, and has its default
 /// there.
-std::string forbidden_changes(const Settings& now, const Settings& then,
+std::string forbidden_changes(const Settings& now, const Settings& then, const char* of_then,
                               const std::vector<std::string>& overrides) {
     std::string lines;
     for (const auto& [key, value] : now.entries()) {
         const bool known = then.has(key);
         if (may_change(key) || (known ? value == then.text(key) : !is_given(key, overrides)))
             continue;
-        lines += fmt::format("\n  {} is {}, in the checkpoint {}", key, value,
+        lines += fmt::format("\n  {} is {}, in the {} {}", key, value, of_then,
                              known ? then.text(key) : "nothing");
     }
     for (const auto& [key, value] : then.entries())
         if (!now.has(key) && !may_change(key) && is_given(key, overrides))
-            lines += fmt::format("\n  {} is nothing, in the checkpoint {}", key, value);
+            lines += fmt::format("\n  {} is nothing, in the {} {}", key, of_then, value);
     return lines;
 }
 
@@ -121,10 +121,14 @@ std::vector<std::string> readable_keys() {
     return names;
 }
 
-void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const Chosen& chosen,
-                   const std::vector<std::string>& overrides) {
-    const std::string changes =
-        forbidden_changes(resolved.settings, chosen.manifest.settings, overrides);
+/// Since the checkpoint, or before the first of them since the run was prepared.
+void check_changes(const RunFolder& folder, const ResolvedCase& resolved,
+                   const std::optional<Chosen>& chosen, const std::vector<std::string>& overrides) {
+    if (!chosen && overrides.empty()) return;
+    const Settings before =
+        chosen ? chosen->manifest.settings : load_run_folder(folder.root, {}).settings;
+    const std::string changes = forbidden_changes(resolved.settings, before,
+                                                  chosen ? "checkpoint" : "run so far", overrides);
     if (!changes.empty())
         throw refused(folder.root, fmt::format("cannot go on as another case:{}", changes),
                       fmt::format("These keys may change: {}. For all others start a new run, with "
@@ -269,13 +273,7 @@ void prepare_fluid(const ResolvedCase& resolved, const RunFolder& folder, const 
     if (now.integer("fluid.ranks") != ranks) decompose_again(now, folder, chosen);
 }
 
-void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::int64_t windows,
-                  const std::vector<std::string>& line, const std::vector<std::string>& overrides) {
-    auto record = read_run_json(folder.record());
-    record["status"] = "prepared";
-    record["exit_code"] = nullptr;
-    record["error"] = "";
-    record["case_hash"] = resolved.settings.text("run.hash");
+void note_overrides(nlohmann::ordered_json& record, const std::vector<std::string>& overrides) {
     // Of a poured run: it is no longer that of its plan.
     if (const std::string planned = record.value("hash_before_pouring", "");
         !planned.empty() && !overrides.empty())
@@ -284,6 +282,16 @@ void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::in
     if (const auto given = record.find("given"); given != record.end())
         for (const std::string& change : overrides)
             given->push_back(change.substr(0, change.find('=')));
+}
+
+void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::int64_t windows,
+                  const std::vector<std::string>& line, const std::vector<std::string>& overrides) {
+    auto record = read_run_json(folder.record());
+    record["status"] = "prepared";
+    record["exit_code"] = nullptr;
+    record["error"] = "";
+    record["case_hash"] = resolved.settings.text("run.hash");
+    note_overrides(record, overrides);
     record["windows"] = resolved.settings.integer("run.windows");
     record["command"] = shell_line(line);
     record["parts"].push_back({{"resumed", local_time("%Y-%m-%dT%H:%M:%S%z")},
@@ -295,7 +303,8 @@ void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::in
 }
 
 PreparedRun from_the_beginning(const ResolvedCase& resolved, const RunFolder& folder,
-                               std::shared_ptr<RunLock> lock, const LaunchSite& site) {
+                               std::shared_ptr<RunLock> lock, const LaunchSite& site,
+                               const std::vector<std::string>& overrides) {
     fs::remove_all(folder.fluid());
     const auto before = read_run_json(folder.record());
     PreparedRun prepared = fill(resolved, {folder, std::move(lock)}, site);
@@ -304,6 +313,8 @@ PreparedRun from_the_beginning(const ResolvedCase& resolved, const RunFolder& fo
     for (const char* of :
          {"case", "case_file", "overrides", "given", "from", "hash_before_pouring"})
         if (before.contains(of)) record[of] = before[of];
+    note_overrides(record, overrides);
+    if (!overrides.empty()) record["parts"].back()["overrides"] = overrides;
     write_run_json(folder.record(), record);
     return prepared;
 }
@@ -358,7 +369,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     const ResolvedCase resolved = load_run_folder(folder.root, overrides);
     require_path(folder, resolved.settings);
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
-    if (chosen) check_changes(folder, resolved, *chosen, overrides);
+    check_changes(folder, resolved, chosen, overrides);
     // After the changes: a later time.end makes a run that was complete go on.
     if (is_complete(folder, resolved)) return std::nullopt;
     if (!chosen) require_no_windows(folder);
@@ -367,7 +378,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     if (fs::exists(folder.recordings())) put_aside(folder.recordings());
     if (!chosen) {
         say("there is no checkpoint yet; the run starts from the beginning");
-        return Resumed{from_the_beginning(resolved, folder, lock, site), 0, 0.0};
+        return Resumed{from_the_beginning(resolved, folder, lock, site, overrides), 0, 0.0};
     }
     if (!overrides.empty())
         // Before the job: its programs read the case and compare its hash.

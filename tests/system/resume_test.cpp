@@ -274,6 +274,19 @@ TEST_F(Resume, WhatCannotGoOnIsRefusedWithTheReason) {
     EXPECT_SAYS(damaged.err, "has no whole checkpoint: w00000040, w00000032");
 }
 
+// There is no checkpoint to compare with, and what may change is recorded all the same.
+TEST_F(Resume, BeforeTheFirstWindowTheSameKeysMayChange) {
+    scratch.write("case.yaml", wet_case);
+    ASSERT_EQ(turbidite("run case.yaml --out run --dry-run").code, 0);
+    const Answer other = turbidite("resume run --dry-run --set contact.friction=0.5");
+    EXPECT_EQ(other.code, 2) << other.out;
+    EXPECT_SAYS(other.err, "contact.friction is 0.5, in the run so far 0.3");
+    const Answer longer = turbidite("resume run --dry-run --set time.end=0.7");
+    EXPECT_EQ(longer.code, 0) << longer.err;
+    EXPECT_EQ(record().at("parts").at(0).at("overrides").at(0), "time.end=0.7");
+    EXPECT_EQ(record().at("given").back(), "time.end");
+}
+
 TEST_F(Resume, PrintsTheLineForABatchScript) {
     scratch.write("case.yaml", dry_case);
     scratch.write("walls.csv", "id,x1,y1,x2,y2\n1,6,2,7,2\n");

@@ -83,7 +83,9 @@ double checkpoints(const ResolvedCase& resolved) {
     const double all = sets(settings.real("time.end"), settings.real("checkpoint.interval")) +
                        sets(windows, static_cast<double>(settings.integer("checkpoint.windows"))) +
                        sets(minutes, settings.real("checkpoint.wall_minutes"));
-    return std::min(std::floor(all), static_cast<double>(settings.integer("checkpoint.keep")));
+    // And those of t = 0 and of the end.
+    const double written = all > 0.0 ? 1.0 + std::ceil(all) : 0.0;
+    return std::min(written, static_cast<double>(settings.integer("checkpoint.keep")));
 }
 
 double fluid_bytes(const Settings& settings, const RunValues& run, double sets) {

@@ -31,12 +31,13 @@ Ruling fluid_balance_in_order(const Settings& s) {
 }
 
 KeySpec balance_key(const char* name, const char* fallback, const char* help) {
-    return {.name = name,
-            .type = KeyType::real,
-            .fallback = fallback,
-            .range = positive,
-            .help = help,
-            .idle = without_fluid};
+    return {
+        .name = name, .type = KeyType::real, .fallback = fallback, .range = positive, .help = help};
+}
+
+KeySpec with_fluid(KeySpec key) {
+    key.idle = without_fluid;
+    return key;
 }
 
 }  // namespace
@@ -76,11 +77,12 @@ KeyGroup limit_keys() {
                             "above which a warning is printed"),
                 balance_key("limits.grain_balance_hard", "0.0001",
                             "the same, above which the run ends with code 6"),
-                balance_key("limits.fluid_balance_soft", "1e-06",
-                            "relative defect of the fluid's momentum (column fluid_balance) "
-                            "above which a warning is printed"),
-                balance_key("limits.fluid_balance_hard", "0.01",
-                            "the same, above which the run ends with code 6"),
+                with_fluid(
+                    balance_key("limits.fluid_balance_soft", "1e-06",
+                                "relative defect of the fluid's momentum (column fluid_balance) "
+                                "above which a warning is printed")),
+                with_fluid(balance_key("limits.fluid_balance_hard", "0.01",
+                                       "the same, above which the run ends with code 6")),
                 {.name = "limits.memory",
                  .type = KeyType::real,
                  .unit = "GB",

@@ -38,10 +38,11 @@ TEST_F(DiskCost, GrowsWithCellsAndOutputTimes) {
 }
 
 TEST_F(DiskCost, CountsTheLastWindowAndCheckpointsThatAreKept) {
-    const double one = bytes();
-    EXPECT_NEAR(one - bytes({"checkpoint.interval=0"}), 60.0 * cells + 900.0 * 15.0, 1.0);
-    const double two = bytes({"checkpoint.interval=1"});
-    EXPECT_NEAR(two - one, 60.0 * cells + 900.0 * 15.0, 1.0) << "keep is 2";
+    const double set = 60.0 * cells + 900.0 * 15.0, none = bytes({"checkpoint.interval=0"});
+    const double two = bytes();
+    EXPECT_NEAR(two - none, 2.0 * set, 1.0) << "of the beginning and of the end";
+    EXPECT_DOUBLE_EQ(bytes({"checkpoint.interval=1"}), two) << "keep is 2";
+    EXPECT_NEAR(bytes({"checkpoint.interval=4", "checkpoint.keep=9"}) - none, 4.0 * set, 1.0);
     EXPECT_DOUBLE_EQ(bytes({"checkpoint.windows=100", "checkpoint.interval=0"}), two);
     EXPECT_GT(bytes({"output.fields_interval=7.5"}), bytes({"output.fields_interval=10"}));
 }

@@ -69,6 +69,12 @@ TEST_F(FluidLimits, IntervalsThatAreNotWholeAreTold) {
     EXPECT_SAYS(told("0.1", "0.05"), "shorter than output.interval");
 }
 
+TEST_F(FluidLimits, FieldsAtAnIntervalBeyondAnyRunComeAtTheEnd) {
+    const ResolvedCase resolved = load("", {"output.fields_interval=1e30"});
+    EXPECT_GE(resolved.settings.integer("run.fields_every"),
+              resolved.settings.integer("run.windows"));
+}
+
 TEST_F(FluidLimits, ABalanceWarnsBeforeItEndsTheRun) {
     const std::string text = refusal("", {"limits.grain_balance_hard=1e-9"});
     EXPECT_SAYS(text, "limits.grain_balance_hard = 1e-09");

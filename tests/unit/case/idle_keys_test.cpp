@@ -67,6 +67,8 @@ TEST_F(IdleKeys, AreNamedWithTheReason) {
 }
 
 TEST_F(IdleKeys, AreNotNamedWhereTheyHaveOne) {
+    const std::string dry = notes({"fluid.enabled=false", "limits.grain_balance_hard=1e-3"});
+    EXPECT_EQ(dry.find("limits."), std::string::npos) << dry;
     EXPECT_TRUE(quiet({}));
     EXPECT_TRUE(quiet({"coupling.scheme=joint", "coupling.tolerance=0.001"}));
     EXPECT_TRUE(quiet({"fluid.pressure_solver=GAMG", "fluid.pressure_tolerance=1e-7"}));

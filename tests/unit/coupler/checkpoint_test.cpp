@@ -94,6 +94,15 @@ TEST(CheckpointRule, CountsFromTheBeginningOfTheRun) {
     for (const std::int64_t not_due : {1, 2, 4, 7, 8}) EXPECT_FALSE(rule.due(not_due)) << not_due;
 }
 
+// Which stands for the beginning and the end of a run alone.
+TEST(CheckpointRule, AnIntervalBeyondAllWindowsIsNeverDue) {
+    Settings settings = test_settings();
+    settings.set("checkpoint.interval", 1e30);
+    const CheckpointRule rule(settings, run_values(settings));
+    EXPECT_TRUE(rule.any());
+    for (const std::int64_t windows : {1, 1000, 123456789}) EXPECT_FALSE(rule.due(windows));
+}
+
 TEST(CheckpointRule, KnowsWallTime) {
     Settings settings = test_settings();
     settings.set("checkpoint.wall_minutes", 2.0);

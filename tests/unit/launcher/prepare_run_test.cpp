@@ -40,7 +40,7 @@ TEST(PrepareRun, FolderIsAbsoluteAndNew) {
 
 TEST(PrepareRun, RefusesAFolderInUse) {
     const ScratchFolder scratch;
-    scratch.write("run/case.yaml", "old");
+    scratch.write("run/case.yaml", "# Resolved case: old\n");
     const std::string text = refusal({.out = scratch.path() / "run"});
     EXPECT_SAYS(text, "is not empty");
     EXPECT_SAYS(text, "--force");
@@ -49,7 +49,7 @@ TEST(PrepareRun, RefusesAFolderInUse) {
 
 TEST(PrepareRun, ForceRemovesOnlyWhatARunWrites) {
     const ScratchFolder scratch;
-    scratch.write("run/case.yaml", "old");
+    scratch.write("run/case.yaml", "# Resolved case: old\n");
     scratch.write("run/STOP", "130");
     scratch.write("run/probes.csv", "time\n");
     scratch.write("run/view.py", "old");
@@ -75,6 +75,19 @@ TEST(PrepareRun, ForceTouchesNoFolderWithoutARun) {
         EXPECT_EQ(text.find("--force"), std::string::npos) << text;  // it would be refused
     }
     EXPECT_TRUE(fs::exists(scratch.path() / "home/logs/diary.log"));
+}
+
+// `turbidite new` writes a case.yaml, and grains of one's own may lie beside it.
+TEST(PrepareRun, ForceTouchesNoCaseThatSomebodyHasWritten) {
+    const ScratchFolder scratch;
+    scratch.write("home/case.yaml", "# mine\ndomain: {size: [8, 8]}\n");
+    scratch.write("home/grains/mine.csv", "id,x,y\n");
+    for (const bool force : {false, true}) {
+        const std::string text = refusal({.out = scratch.path() / "home", .force = force});
+        EXPECT_SAYS(text, "is not empty, and no run is in it");
+    }
+    EXPECT_TRUE(fs::exists(scratch.path() / "home/case.yaml"));
+    EXPECT_TRUE(fs::exists(scratch.path() / "home/grains/mine.csv"));
 }
 
 // Killed, or on a full disk: what is there is written anew, and nothing else is taken for it.
