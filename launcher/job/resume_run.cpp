@@ -121,19 +121,20 @@ std::vector<std::string> readable_keys() {
     return names;
 }
 
-/// Since the checkpoint, or before the first of them since the run was prepared.
-void check_changes(const RunFolder& folder, const ResolvedCase& resolved,
-                   const std::optional<Chosen>& chosen, const std::vector<std::string>& overrides) {
-    if (!chosen && overrides.empty()) return;
-    const Settings before =
-        chosen ? chosen->manifest.settings : load_run_folder(folder.root, {}).settings;
-    const std::string changes = forbidden_changes(resolved.settings, before,
-                                                  chosen ? "checkpoint" : "run so far", overrides);
+/// `before`: the settings of `what`.
+void check_keys(const RunFolder& folder, const Settings& now, const Settings& before,
+                const char* what, const std::vector<std::string>& overrides) {
+    const std::string changes = forbidden_changes(now, before, what, overrides);
     if (!changes.empty())
         throw refused(folder.root, fmt::format("cannot go on as another case:{}", changes),
                       fmt::format("These keys may change: {}. For all others start a new run, with "
                                   "--from for its grains.",
                                   fmt::join(readable_keys(), ", ")));
+}
+
+void check_changes(const RunFolder& folder, const ResolvedCase& resolved, const Chosen& chosen,
+                   const std::vector<std::string>& overrides) {
+    check_keys(folder, resolved.settings, chosen.manifest.settings, "checkpoint", overrides);
     const std::int64_t ranks = resolved.settings.integer("grains.ranks");
     if (ranks != std::ssize(chosen.manifest.grains) &&
         !grains_adapter(resolved.settings).resumes_on_other_ranks)
@@ -369,7 +370,11 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     const ResolvedCase resolved = load_run_folder(folder.root, overrides);
     require_path(folder, resolved.settings);
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
-    check_changes(folder, resolved, chosen, overrides);
+    if (chosen)
+        check_changes(folder, resolved, *chosen, overrides);
+    else if (!overrides.empty())
+        check_keys(folder, resolved.settings, load_run_folder(folder.root, {}).settings,
+                   "run so far", overrides);
     // After the changes: a later time.end makes a run that was complete go on.
     if (is_complete(folder, resolved)) return std::nullopt;
     if (!chosen) require_no_windows(folder);

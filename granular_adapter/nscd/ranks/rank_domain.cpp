@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <unordered_set>
+#include <utility>
 
 #include "granular_adapter/nscd/detection/broad_phase.hpp"
 #include "granular_adapter/nscd/ranks/body_rows.hpp"
@@ -52,25 +52,36 @@ void send_on(RankExchange& ranks, std::vector<Entry>& entries, const Destination
         entries.insert(entries.end(), arrived.begin(), arrived.end());
 }
 
-void sort_by_key(std::vector<RememberedState>& states) {
-    std::sort(states.begin(), states.end(),
-              [](const RememberedState& a, const RememberedState& b) { return a.key < b.key; });
+template <class Entry>
+void sort_by_key(std::vector<Entry>& entries) {
+    std::sort(entries.begin(), entries.end(),
+              [](const Entry& a, const Entry& b) { return a.key < b.key; });
 }
 
-template <class Destination>
-void send_on(RankExchange& ranks, ContactStates& states, const Destination& destination) {
-    ContactStates::Saved saved = states.saved();
-    send_on(ranks, saved.accepted, destination);
-    send_on(ranks, saved.found, destination);
-    sort_by_key(saved.accepted), sort_by_key(saved.found);
-    states.replace(std::move(saved));
+/// Of the entries of all ranks, which several may have, once those that are `kept` here.
+template <class Entry, class Kept>
+void share_out(RankExchange& ranks, std::vector<Entry>& entries, const Kept& kept) {
+    entries = gathered(ranks, entries);
+    std::erase_if(entries, [&](const Entry& entry) { return !kept(entry.key); });
+    sort_by_key(entries);
+    const auto same = [](const Entry& a, const Entry& b) { return a.key == b.key; };
+    entries.erase(std::unique(entries.begin(), entries.end(), same), entries.end());
 }
 
-template <class Destination>
-void send_on(RankExchange& ranks, ContactMemory& memory, const Destination& destination) {
-    std::vector<RememberedContact> contacts = memory.contacts();
-    send_on(ranks, contacts, destination);
-    memory.replace(std::move(contacts));
+/// What is kept of contacts, as lists of entries, changed one after the other on all ranks.
+template <class Change>
+void change_lists(const RankShare& share, const Change& change) {
+    for (ContactMemory* memory : {&share.memory, &share.moments}) {
+        std::vector<RememberedContact> contacts = memory->contacts();
+        change(contacts);
+        memory->replace(std::move(contacts));
+    }
+    ContactStates::Saved saved = share.states.saved();
+    for (std::vector<RememberedState>* states : {&saved.accepted, &saved.found}) {
+        change(*states);
+        sort_by_key(*states);
+    }
+    share.states.replace(std::move(saved));
 }
 
 }  // namespace
@@ -94,9 +105,10 @@ CellSizes RankDomain::sizes(const Bodies& own, const PeriodicBox& box) {
     if (static_cast<double>(radii_.size()) != bodies) {
         radii_ = gathered(ranks_, own.radius);
         sizes_ = sizes_of(radii_);
+        large_.known = false;
     }
     sizes_.span = span;
-    if (++since_cut_ > steps_between_cuts && is_uneven(works)) is_cut_ = false;
+    if (++areas_.steps > steps_between_cuts && is_uneven(works)) areas_.cut = false;
     return sizes_;
 }
 
@@ -126,34 +138,53 @@ std::vector<Twist> RankDomain::extremes(const std::vector<Twist>& own) const {
 }
 
 void RankDomain::cut(const ParityGrid& grid, const Bodies& own) {
-    if (is_cut_) return;
+    if (areas_.cut) return;
     // No step has counted contacts yet: bodies stand for them.
     if (loads_.empty()) {
         std::map<Vec3, double> count;
         for (const Vec3& x : own.position) count[grid.centre(grid.cell(x))] += 1.0;
         for (const auto& [centre, bodies] : count) loads_.push_back({centre, bodies});
     }
-    cuts_ = RankCuts(gathered(ranks_, loads_), ranks_.size());
-    is_cut_ = true;
-    since_cut_ = 0;
+    areas_.cuts = RankCuts(gathered(ranks_, loads_), ranks_.size());
+    areas_.cut = true;
+    areas_.steps = 0;
 }
 
 int RankDomain::home(const ParityGrid& grid, const Vec3& position, double radius) const {
     // By the centre of the cell, so that a cell is never divided between ranks.
-    return grid.is_large(radius) ? 0 : cuts_.rank(grid.centre(grid.cell(position)));
+    return grid.is_large(radius) ? 0 : areas_.cuts.rank(grid.centre(grid.cell(position)));
+}
+
+/// Which bodies are large may change with the median radius, when bodies have left. Returns whether
+/// it has.
+bool RankDomain::find_large_ids(const ParityGrid& grid, const Bodies& own) {
+    if (std::exchange(large_.known, true)) return false;
+    std::vector<GrainId> mine;
+    for (std::size_t i = 0; i < own.size(); ++i)
+        if (grid.is_large(own.radius[i])) mine.push_back(own.id[i]);
+    const std::vector<GrainId> all = gathered(ranks_, mine);
+    std::unordered_set<GrainId> now(all.begin(), all.end());
+    const bool changed = now != large_.ids;
+    large_.ids = std::move(now);
+    return changed;
+}
+
+/// Contacts of two bodies of which one is large are of the first rank.
+bool RankDomain::is_of_large(const ContactKey& key) const {
+    return key.wall == 0 && (large_.ids.count(key.first) > 0 || large_.ids.count(key.second) > 0);
 }
 
 void RankDomain::settle(const ParityGrid& grid, const RankShare& share) {
     cut(grid, share.bodies);
     const int me = ranks_.rank();
+    const bool reclassed = find_large_ids(grid, share.bodies);
+    const bool anew = std::exchange(scattered_, false) || reclassed;
     std::vector<std::vector<std::int32_t>> leaving(static_cast<std::size_t>(ranks_.size()));
     std::vector<std::int32_t> staying;
     std::unordered_map<GrainId, int> moved;
-    std::unordered_set<GrainId> large;
     const Bodies& bodies = share.bodies;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const int rank = home(grid, bodies.position[i], bodies.radius[i]);
-        if (grid.is_large(bodies.radius[i])) large.insert(bodies.id[i]);
         if (rank == me) {
             staying.push_back(static_cast<std::int32_t>(i));
             continue;
@@ -162,7 +193,7 @@ void RankDomain::settle(const ParityGrid& grid, const RankShare& share) {
         moved.emplace(bodies.id[i], rank);
     }
     // All ranks or none: what follows is collective.
-    if (!any(ranks_, !moved.empty())) return;
+    if (!any(ranks_, !moved.empty()) && !anew) return;
     const auto visit = [&](const auto& each) {
         each_array(share.bodies, share.twists, share.mobilities, each);
     };
@@ -174,29 +205,32 @@ void RankDomain::settle(const ParityGrid& grid, const RankShare& share) {
         append_rows(arrived, visit);
     // Which way a body came does not show in the order.
     take_rows(order_of_ids(bodies), visit);
-    // Contacts of large bodies stay on the first rank.
+    if (anew) {
+        // Where an entry lies says nothing of who will find its contact.
+        const std::unordered_set<GrainId> own(bodies.id.begin(), bodies.id.end());
+        const auto kept = [&](const ContactKey& key) {
+            return is_of_large(key) ? me == 0 : own.count(keeper(key)) > 0;
+        };
+        return change_lists(share, [&](auto& entries) { share_out(ranks_, entries, kept); });
+    }
+    // Contacts of large bodies are on the first rank, and stay there.
     const auto destination = [&](const ContactKey& key) {
         const auto at = moved.find(keeper(key));
-        if (at == moved.end()) return -1;
-        const bool of_large =
-            key.wall == 0 && (large.count(key.first) > 0 || large.count(key.second) > 0);
-        return of_large ? -1 : at->second;
+        return at == moved.end() || is_of_large(key) ? -1 : at->second;
     };
-    send_on(ranks_, share.memory, destination);
-    send_on(ranks_, share.moments, destination);
-    send_on(ranks_, share.states, destination);
+    change_lists(share, [&](auto& entries) { send_on(ranks_, entries, destination); });
 }
 
 /// Their places are needed to find who is near.
 void RankDomain::find_large(const ParityGrid& grid, const Bodies& own) {
-    large_.clear();
+    large_.places.clear();
     if (std::none_of(radii_.begin(), radii_.end(),
                      [&](double radius) { return grid.is_large(radius); }))
         return;
     std::vector<Large> mine;
     for (std::size_t i = 0; i < own.size(); ++i)
         if (grid.is_large(own.radius[i])) mine.push_back({own.position[i], own.radius[i]});
-    large_ = gathered(ranks_, mine);
+    large_.places = gathered(ranks_, mine);
 }
 
 /// The ranks that have a body, in their order; large ones are on the first rank alone.
@@ -206,9 +240,10 @@ std::vector<int> RankDomain::holders(const ParityGrid& grid, const Bodies& bodie
     const double radius = bodies.radius[body];
     if (grid.is_large(radius)) return {0};
     std::vector<int> found;
-    grid.each_cell_near(
-        x, [&](const ParityGrid::Cell& cell) { found.push_back(cuts_.rank(grid.centre(cell))); });
-    for (const Large& other : large_)
+    grid.each_cell_near(x, [&](const ParityGrid::Cell& cell) {
+        found.push_back(areas_.cuts.rank(grid.centre(cell)));
+    });
+    for (const Large& other : large_.places)
         // A large body reaches beyond the distance d of the cells, so its pairs are looked for one
         // by one; a little farther, so that rounding misses none.
         if (norm(box_.minimum_image(other.position - x)) < 1.001 * grid.bound(radius, other.radius))

@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "granular_adapter/nscd/cells/parity_grid.hpp"
 #include "granular_adapter/nscd/detection/detection.hpp"
@@ -48,7 +49,11 @@ class RankDomain {
     /// found (detection/reach.hpp).
     std::vector<Twist> extremes(const std::vector<Twist>& own) const;
 
-    /// Gives bodies to the ranks of their cells.
+    /// What is kept of contacts may lie on any rank, or on several.
+    void scatter() { scattered_ = true; }
+
+    /// Gives bodies to the ranks of their cells, and what is kept of a contact to the rank that
+    /// finds it.
     void settle(const ParityGrid& grid, const RankShare& share);
 
     /// Appends copies of the bodies of other ranks; `share.bodies` are the own ones before.
@@ -66,6 +71,8 @@ class RankDomain {
     void cut(const ParityGrid& grid, const Bodies& own);
     std::vector<int> holders(const ParityGrid& grid, const Bodies& bodies, std::size_t body) const;
     void find_large(const ParityGrid& grid, const Bodies& own);
+    bool find_large_ids(const ParityGrid& grid, const Bodies& own);
+    bool is_of_large(const ContactKey& key) const;
     bool is_uneven(const std::vector<double>& work) const;
     int home(const ParityGrid& grid, const Vec3& position, double radius) const;
     void number_shared(const ParityGrid& grid, const Bodies& bodies);
@@ -77,16 +84,23 @@ class RankDomain {
     RankExchange& ranks_;
     std::vector<double> radii_;  ///< of all bodies
     CellSizes sizes_;
-    RankCuts cuts_;
-    bool is_cut_ = false;
+    struct {
+        RankCuts cuts;
+        bool cut = false;
+        std::int64_t steps = 0;  ///< since they were cut
+    } areas_;
     std::vector<CellLoad> loads_;  ///< of the own cells in the last step
     PeriodicBox box_;
     struct Large {
         Vec3 position{};
         double radius = 0.0;
     };
-    std::vector<Large> large_;    ///< of all ranks
-    std::int64_t since_cut_ = 0;  ///< steps
+    struct {
+        std::vector<Large> places;        ///< of all ranks
+        std::unordered_set<GrainId> ids;  ///< the same
+        bool known = false;               ///< whether the ids are those by `sizes_`
+    } large_;
+    bool scattered_ = true;
     std::size_t own_ = 0;
     std::vector<std::vector<std::int32_t>> lent_;  ///< by rank: own bodies of which it has copies
     std::vector<std::size_t> borrowed_;            ///< by rank: the number of its bodies here

@@ -22,6 +22,7 @@ struct Scene {
     Bodies bodies;
     int steps = 60;
     double dt = 0.01;
+    std::set<GrainId> leavers = {};  ///< are gone after half of the steps
 };
 
 /// What is compared.
@@ -89,6 +90,12 @@ inline Played play(const Scene& scene, int ranks) {
         std::vector<double> overlaps, violations;
         engine.max_penetration();
         for (int step = 0; step < scene.steps; ++step) {
+            if (2 * step == scene.steps && !scene.leavers.empty()) {
+                std::vector<std::uint8_t> stays;
+                for (const GrainId id : engine.bodies().id)
+                    stays.push_back(scene.leavers.count(id) == 0);
+                engine.keep(stays);
+            }
             const StepReport report = engine.step(scene.dt);
             violations.push_back(engine.contact_violation());
             {

@@ -82,6 +82,106 @@ TEST(Ranks, HaveTheBitsOfOneRankWithLargeAndFixedBodies) {
     for (const int ranks : {2, 3}) expect_equal(one, play(scene, ranks));
 }
 
+/// Ten small and ten large spheres along x, apart from each other but for a pair at the far end,
+/// which is bonded and pulled apart: the one with the lower id is small or large.
+Scene bonded_pair(bool small_first) {
+    Scene scene;
+    scene.settings = scenes::exact_in_space(0.4);
+    scene.settings.gravity = {};
+    Surface surface;
+    surface.friction = 0.4;
+    surface.adhesion = 50.0;
+    scene.settings.surfaces = {surface};
+    scene.settings.law.adhesion = "cohesion";
+    scene.settings.law_settings.adhesion_range = 0.01;
+    scene.settings.law_settings.adhesion_shear = 1.0;
+    for (int i = 0; i < 9; ++i) {
+        scene.bodies.add(scenes::sphere(10 + i, {2.0 * i, 0.0, 0.0}));
+        scene.bodies.add(scenes::sphere(30 + i, {6.0 * i, 20.0, 0.0}, 2.5));
+    }
+    scene.bodies.add(scenes::sphere(small_first ? 50 : 51, {80.0, 0.0, 0.0}));
+    Body large = scenes::sphere(small_first ? 51 : 50, {83.0, 0.0, 0.0}, 2.5);
+    large.twist.velocity = {0.01, 0.0, 0.0};
+    scene.bodies.add(large);
+    scene.steps = 8;
+    return scene;
+}
+
+double end_velocity(const Played& played, GrainId id) {
+    return played.grains.at(id).twist.velocity[0];
+}
+
+// As many small ones as large ones: none is large by the median until one has left. Then their
+// contacts are of the first rank, and so is what is known of them.
+TEST(Ranks, ABondStaysWhereABodyBecomesLarge) {
+    for (const bool small_first : {true, false}) {
+        Scene scene = bonded_pair(small_first);
+        scene.leavers = {30};
+        const Played one = play(scene, 1);
+        EXPECT_GT(end_velocity(one, small_first ? 50 : 51), 0.005) << "the bond pulls it along";
+        for (const int ranks : {2, 3}) expect_equal(one, play(scene, ranks));
+    }
+}
+
+TEST(Ranks, ABondStaysWhereALargeBodyBecomesOneOfMany) {
+    for (const bool small_first : {true, false}) {
+        Scene scene = bonded_pair(small_first);
+        // One more small one, which leaves: large ones are large until then.
+        scene.bodies.add(scenes::sphere(60, {40.0, 0.0, 0.0}));
+        scene.leavers = {60};
+        const Played one = play(scene, 1);
+        EXPECT_GT(end_velocity(one, small_first ? 50 : 51), 0.005) << "the bond pulls it along";
+        for (const int ranks : {2, 3}) expect_equal(one, play(scene, ranks));
+    }
+}
+
+/// Every `ranks`-th body from the one with the number of the rank on.
+void keep_share(Engine& engine, const MemoryExchange& exchange, int ranks) {
+    std::vector<std::uint8_t> mine;
+    for (std::size_t i = 0; i < engine.bodies().size(); ++i)
+        mine.push_back(static_cast<int>(i) % ranks == exchange.rank());
+    engine.keep(mine);
+}
+
+/// The velocity of a body four steps after it was restored, in engines that have begun anew before.
+double velocity_after_restart(const Scene& scene, const std::vector<char>& saved, GrainId id,
+                              int ranks) {
+    double result = 0.0;
+    std::mutex mutex;
+    on_ranks(ranks, [&](MemoryExchange& exchange) {
+        Engine engine(scene.settings, scene.shapes, scene.walls);
+        engine.bodies() = scene.bodies;
+        keep_share(engine, exchange, ranks);
+        if (ranks > 1) engine.share_with(exchange);
+        engine.max_penetration();
+        engine.restore_from({saved});
+        keep_share(engine, exchange, ranks);
+        for (int step = 0; step < 4; ++step) engine.step(scene.dt), engine.move(scene.dt);
+        const std::lock_guard lock(mutex);
+        for (std::size_t i = 0; i < engine.bodies().size(); ++i)
+            if (engine.bodies().id[i] == id) result = engine.bodies().twist[i].velocity[0];
+    });
+    return result;
+}
+
+// Every rank reads all that is known of contacts; that of a large body must reach the first rank,
+// whoever has its other body.
+TEST(Ranks, ABondWithALargeBodyGoesOnOnAnotherNumberOfRanks) {
+    for (const bool small_first : {true, false}) {
+        Scene scene = bonded_pair(small_first);
+        scene.bodies.add(scenes::sphere(60, {40.0, 0.0, 0.0}));
+        Engine engine(scene.settings, scene.shapes, scene.walls);
+        engine.bodies() = scene.bodies;
+        for (int step = 0; step < 4; ++step) engine.step(scene.dt), engine.move(scene.dt);
+        const std::vector<char> saved = engine.save();
+        const GrainId small = small_first ? 50 : 51;
+        const double one = velocity_after_restart(scene, saved, small, 1);
+        EXPECT_GT(one, 0.005);
+        for (const int ranks : {2, 3})
+            EXPECT_EQ(velocity_after_restart(scene, saved, small, ranks), one) << ranks;
+    }
+}
+
 TEST(Ranks, HaveTheBitsOfOneRankWithEveryLaw) {
     Scene scene = slide(10, 4);
     Surface surface;
