@@ -373,7 +373,6 @@ void Engine::restore_from(const std::vector<std::vector<char>>& of_ranks) {
     bodies_ = std::move(bodies);
     sort_by_id(bodies_);
     take_memory(std::move(memory));
-    if (shared_.ranks) shared_.ranks->scatter();
     forget_step();
 }
 

@@ -177,8 +177,7 @@ bool RankDomain::is_of_large(const ContactKey& key) const {
 void RankDomain::settle(const ParityGrid& grid, const RankShare& share) {
     cut(grid, share.bodies);
     const int me = ranks_.rank();
-    const bool reclassed = find_large_ids(grid, share.bodies);
-    const bool anew = std::exchange(scattered_, false) || reclassed;
+    const bool anew = find_large_ids(grid, share.bodies);
     std::vector<std::vector<std::int32_t>> leaving(static_cast<std::size_t>(ranks_.size()));
     std::vector<std::int32_t> staying;
     std::unordered_map<GrainId, int> moved;
@@ -206,7 +205,7 @@ void RankDomain::settle(const ParityGrid& grid, const RankShare& share) {
     // Which way a body came does not show in the order.
     take_rows(order_of_ids(bodies), visit);
     if (anew) {
-        // Where an entry lies says nothing of who will find its contact.
+        // Where an entry lies says nothing any more of who will find its contact.
         const std::unordered_set<GrainId> own(bodies.id.begin(), bodies.id.end());
         const auto kept = [&](const ContactKey& key) {
             return is_of_large(key) ? me == 0 : own.count(keeper(key)) > 0;

@@ -49,9 +49,6 @@ class RankDomain {
     /// found (detection/reach.hpp).
     std::vector<Twist> extremes(const std::vector<Twist>& own) const;
 
-    /// What is kept of contacts may lie on any rank, or on several.
-    void scatter() { scattered_ = true; }
-
     /// Gives bodies to the ranks of their cells, and what is kept of a contact to the rank that
     /// finds it.
     void settle(const ParityGrid& grid, const RankShare& share);
@@ -100,7 +97,6 @@ class RankDomain {
         std::unordered_set<GrainId> ids;  ///< the same
         bool known = false;               ///< whether the ids are those by `sizes_`
     } large_;
-    bool scattered_ = true;
     std::size_t own_ = 0;
     std::vector<std::vector<std::int32_t>> lent_;  ///< by rank: own bodies of which it has copies
     std::vector<std::size_t> borrowed_;            ///< by rank: the number of its bodies here
