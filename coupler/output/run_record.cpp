@@ -78,18 +78,16 @@ nlohmann::ordered_json warning_list(const std::vector<RunWarning>& warnings) {
     return list;
 }
 
-/// Of the parts before the last one, which `turbidite` notes in its list of parts.
-std::int64_t windows_before(const nlohmann::ordered_json& record) {
+/// The last of the parts of a run; null unless `turbidite` keeps a list of them.
+nlohmann::ordered_json* last_part(nlohmann::ordered_json& record) {
     const auto parts = record.find("parts");
-    if (parts == record.end() || parts->empty()) return 0;
-    return parts->back().value("from_window", std::int64_t{0});
+    return parts == record.end() || parts->empty() ? nullptr : &parts->back();
 }
 
 void write_progress(nlohmann::ordered_json& record, const RunStatus& status) {
     const RunStatistics& statistics = status.statistics;
     record["windows_done"] = statistics.windows_done;
-    if (record.contains("parts") && !record["parts"].empty())
-        record["parts"].back()["windows_done"] = statistics.windows_done;
+    if (auto* part = last_part(record)) (*part)["windows_done"] = statistics.windows_done;
     record["warnings"] = warning_list(status.warnings);
     record["maxima"] = maxima_table(statistics.maxima);
     if (!statistics.contact_residuals.empty()) record["contact"] = contact_table(statistics);
@@ -116,10 +114,12 @@ void write_run_record(const std::filesystem::path& file, const RunStatus& status
     record["wall_seconds"] = status.wall_seconds;
     record["checkpoints"] = {{"written", status.checkpoints.written},
                              {"seconds", status.checkpoints.seconds}};
-    if (record.contains("parts") && !record["parts"].empty())
-        record["parts"].back()["status"] = status_word(status.code);
+    std::int64_t before = 0;
+    if (auto* part = last_part(record)) {
+        (*part)["status"] = status_word(status.code);
+        before = part->value("from_window", before);
+    }
     // A part that ends before it has read its checkpoint knows nothing of the windows before it.
-    const std::int64_t before = windows_before(record);
     if (status.statistics.windows_done >= before)
         write_progress(record, status);
     else

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include "fluid_adapter/box_step/row_work.hpp"
@@ -23,25 +22,28 @@ void RigidPressure::begin(Constraint& constraint, double dt, double k) {
     // 0 in covered cells: faces between two carry the rigid motion alone, and in wedges a film
     w_.assign(step_.cells(), k);
     constraint.clear_covered(w_.data());
-    film_.begin(constraint.film_sides(), step_.layers(), step_.excess_pointers(), step_.viscosity(),
+    // Found anew at each call
+    const std::vector<CellSide>& films = constraint.film_sides();
+    film_.begin(films, step_.layers(), step_.excess_pointers(), step_.viscosity(),
                 step_.cell_area(), dt);
-    find_enclosed(constraint);
+    find_enclosed(constraint, films);
 }
 
 /// Cells of which W G d and e are zero for any d.
-void RigidPressure::find_enclosed(Constraint& constraint) {
+void RigidPressure::find_enclosed(const Constraint& constraint,
+                                  const std::vector<CellSide>& films) {
     enclosed_.clear();
+    double ranks = constraint.has_driven() ? 1.0 : 0.0;
+    constraint.sum_over_ranks(&ranks, 1);
+    has_driven_ = ranks > 0.0;
+    if (!has_driven_) return;
     std::vector<double>& marks = residual();  // not in use yet
     std::fill(marks.begin(), marks.end(), 0.0);
     constraint.mark_driven(marks.data());
-    double driven = std::accumulate(marks.begin(), marks.end(), 0.0);
-    constraint.sum_over_ranks(&driven, 1);
-    has_driven_ = driven > 0.0;
-    if (!has_driven_) return;
     enclosed_ = step_.operators().enclosed(marks.data());
     // A film passes into a cell and out of it.
     std::set<int> filmed;
-    for (const CellSide& side : constraint.film_sides()) filmed.insert(side.cell);
+    for (const CellSide& side : films) filmed.insert(side.cell);
     const auto passes = [&](int cell) { return filmed.count(cell) != 0; };
     enclosed_.erase(std::remove_if(enclosed_.begin(), enclosed_.end(), passes), enclosed_.end());
 }

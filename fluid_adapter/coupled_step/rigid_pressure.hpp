@@ -38,7 +38,7 @@ class RigidPressure {
     void end(BoxOperators& box) { box.update_excess(dt_, step_.pressure(), excess()); }
 
  private:
-    void find_enclosed(Constraint& constraint);
+    void find_enclosed(const Constraint& constraint, const std::vector<CellSide>& films);
     void leave_out_enclosed(BoxOperators& box, const RigidGrains& grains, ResidualSquare& square);
     ResidualSquare find_residual(BoxOperators& box, RigidGrains& grains);
     double precondition(const RigidGrains& grains);

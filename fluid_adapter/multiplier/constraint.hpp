@@ -82,7 +82,10 @@ class Constraint {
     /// Sets the values of this rank's cells that are part of grains to zero.
     virtual void clear_covered(double* values) const = 0;
 
-    /// Sets the values of this rank's cells that are part of bodies of prescribed motion to one.
+    /// Whether this rank has a body of prescribed motion.
+    virtual bool has_driven() const = 0;
+
+    /// Sets the values of this rank's cells that are part of such bodies to one.
     virtual void mark_driven(double* values) const = 0;
 
     /// Faces between cells of grains that touch on the mesh, or touch a wall, which are to carry a

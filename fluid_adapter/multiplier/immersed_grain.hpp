@@ -5,6 +5,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <vector>
 
 #include "coupler/protocol/records.hpp"
 #include "coupler/rigid/impulse.hpp"
@@ -62,5 +64,10 @@ struct ImmersedGrain {
                announced_impulse;
     }
 };
+
+inline bool any_prescribed(const std::vector<ImmersedGrain>& grains) {
+    return std::any_of(grains.begin(), grains.end(),
+                       [](const ImmersedGrain& grain) { return grain.prescribed; });
+}
 
 }  // namespace turbidite

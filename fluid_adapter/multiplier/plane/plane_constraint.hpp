@@ -26,6 +26,7 @@ class PlaneConstraint final : public Constraint {
     Twist moved_by(std::size_t grain, const Impulse& impulse) const override;
     void for_cells(const std::function<void(int)>& visit) const override;
     void clear_covered(double* values) const override;
+    bool has_driven() const override { return any_prescribed(*grains_); }
     void mark_driven(double* values) const override;
     MultiplierResult make_rigid(const VelocityPointers& change, double reduction,
                                 GrainChange& of_grains) override;

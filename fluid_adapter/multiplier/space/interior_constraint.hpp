@@ -40,6 +40,7 @@ class InteriorConstraint final : public Constraint {
 
     void for_cells(const std::function<void(int)>& visit) const override;
     void clear_covered(double* values) const override;
+    bool has_driven() const override { return any_prescribed(*grains_); }
     void mark_driven(double* values) const override;
     const std::vector<CellSide>& film_sides() override { return cells_.find_wedges().sides(); }
     MultiplierResult make_rigid(const VelocityPointers& change, double reduction,
