@@ -2,9 +2,9 @@
 #include "launcher/case/files/yaml_tree.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <sstream>
-#include <vector>
 
 #include "coupler/protocol/received.hpp"
 
@@ -66,6 +66,36 @@ class Walk {
     int values_ = 0;
 };
 
+/// Where the second document of a text begins.
+class Documents : public YAML::EventHandler {
+ public:
+    void OnDocumentStart(const YAML::Mark& mark) override { line = mark.line + 1; }
+    void OnDocumentEnd() override {}
+    void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  const std::string&) override {}
+    void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                         YAML::EmitterStyle::value) override {}
+    void OnSequenceEnd() override {}
+    void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                    YAML::EmitterStyle::value) override {}
+    void OnMapEnd() override {}
+
+    int line = 0;
+};
+
+/// 0 if there is none. All documents are not to be read: of a stray comma the parser makes empty
+/// ones without end.
+int line_of_second_document(const std::string& text) {
+    std::istringstream input(text);
+    YAML::Parser parser(input);
+    Documents documents;
+    return parser.HandleNextDocument(documents) && parser.HandleNextDocument(documents)
+               ? documents.line
+               : 0;
+}
+
 /// The first line that is indented with a tab, 0 if there is none.
 int tab_line(const std::string& text) {
     std::istringstream lines(text);
@@ -80,11 +110,10 @@ int tab_line(const std::string& text) {
 
 YAML::Node yaml_tree(const std::string& text) {
     try {
-        const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-        if (documents.size() > 1)
-            throw YamlFault{line_of(documents[1]), "begins a second document, which is not read",
+        if (const int line = line_of_second_document(text); line > 0)
+            throw YamlFault{line, "begins a second document, which is not read",
                             "Remove it, or write it to a file of its own."};
-        const YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
+        const YAML::Node root = YAML::Load(text);
         Walk().through(root);
         return root;
     } catch (const YAML::Exception& error) {

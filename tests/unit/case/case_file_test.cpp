@@ -226,6 +226,8 @@ TEST_F(CaseFile, AKeyIsGivenOnceInAnOverride) {
 
 TEST_F(CaseFile, ASecondDocumentIsRefused) {
     EXPECT_SAYS(refusal("---\ncontact: {friction: 0.3}\n"), "begins a second document");
+    // Of which the parser makes empty documents without end.
+    EXPECT_SAYS(refusal(",\ncontact: {friction: 0.3}\n"), "begins a second document");
 }
 
 // The parser calls a tab an illegal map value, in this or in another line.
