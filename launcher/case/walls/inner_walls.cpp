@@ -208,43 +208,31 @@ std::string place_of(const PlacedGrain& grain, bool space) {
 }
 
 /// A round wall that turns about its own axis stays where it is.
-bool turns_in_itself(const SpaceForm& form) {
+bool turns_in_itself(const SpaceForm& form, const Vec3& turn) {
     return form.kind != SpaceWallKind::plate &&
-           norm(cross(form.a, form.spin)) < 1e-9 * norm(form.a) * norm(form.spin);
+           norm(cross(form.a, turn)) < 1e-9 * norm(form.a) * norm(turn);
 }
 
-/// The extent along an axis, the largest that a wall with a spin of its own has on its way.
-double longest_extent(const InnerWall& wall, std::size_t axis) {
-    const Vec3 size = extent_of(wall), spin = wall.space ? wall.space->spin : Vec3{0, 0, wall.spin};
-    if (spin == Vec3{} || (wall.space && turns_in_itself(*wall.space))) return size[axis];
-    const auto is_along = [&](std::size_t k) { return std::abs(spin[k]) == norm(spin); };
+/// The extent along an axis, the largest on the way of a wall that turns.
+double longest_extent(const InnerWall& wall, const Vec3& turn, std::size_t axis) {
+    const Vec3 size = extent_of(wall);
+    if (turn == Vec3{} || (wall.space && turns_in_itself(*wall.space, turn))) return size[axis];
+    const auto is_along = [&](std::size_t k) { return std::abs(turn[k]) == norm(turn); };
     if (is_along(axis)) return size[axis];
-    Vec3 across = size;  // the spin
+    Vec3 others = size;
+    others[axis] = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
-        if (is_along(k)) across[k] = 0.0;
-    return norm(across);
+        if (is_along(k)) others[k] = 0.0;
+    // Of a box that turns by an angle t: size cos(t) + others sin(t), which grows up to its
+    // diagonal.
+    const double angle = std::min(norm(turn), std::atan2(norm(others), size[axis]));
+    return size[axis] * std::cos(angle) + norm(others) * std::sin(angle);
 }
 
-/// Nothing unless the images of a wall across a cyclic side would lie on the wall itself.
-void check_period(const InnerWall& wall, const PackingBox& box, const std::string& source,
-                  std::vector<CaseProblem>& problems) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto [period, repeats] = periods_of(box)[axis];
-        const double size = longest_extent(wall, axis);
-        if (repeats && size > period + touching_tolerance)
-            problems.push_back(
-                {.source = source,
-                 .line = 0,
-                 .key = {},
-                 .value = {},
-                 .fault =
-                     fmt::format("wall {} is {:.6g} D long along {}{}", wall.id, size, "xyz"[axis],
-                                 size > extent_of(wall)[axis] ? " when it has turned" : ""),
-                 .allowed = fmt::format("The box repeats there every {:.6g} D, and the wall with "
-                                        "it.",
-                                        period),
-                 .remedy = "Let it end at the sides, where its image begins."});
-    }
+/// Without a motion: any angle, about its spin.
+Vec3 own_turn(const InnerWall& wall) {
+    const Vec3 spin = wall.space ? wall.space->spin : Vec3{0, 0, wall.spin};
+    return spin == Vec3{} ? spin : full_turn * (spin / norm(spin));
 }
 
 }  // namespace
@@ -295,12 +283,35 @@ std::string walls_csv(const std::vector<InnerWall>& walls) {
     return text;
 }
 
+CaseProblems check_period(const InnerWall& wall, const Vec3& turn, const PackingBox& box,
+                          const std::string& source) {
+    CaseProblems problems;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto [period, repeats] = periods_of(box)[axis];
+        const double size = longest_extent(wall, turn, axis);
+        if (repeats && size > period + touching_tolerance)
+            problems.push_back(
+                {.source = source,
+                 .line = 0,
+                 .key = {},
+                 .value = {},
+                 .fault =
+                     fmt::format("wall {} is {:.6g} D long along {}{}", wall.id, size, "xyz"[axis],
+                                 size > extent_of(wall)[axis] ? " when it has turned" : ""),
+                 .allowed = fmt::format("The box repeats there every {:.6g} D, and the wall with "
+                                        "it.",
+                                        period),
+                 .remedy = "Let it end at the sides, where its image begins."});
+    }
+    return problems;
+}
+
 std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
                                      const GrainForms& forms, const PackingBox& box,
                                      const std::string& source, double tolerance) {
     std::vector<CaseProblem> problems;
     for (const InnerWall& wall : walls) {
-        check_period(wall, box, source, problems);
+        if (wall.motion.empty()) append(problems, check_period(wall, own_turn(wall), box, source));
         const StartGap gap_of(wall, forms, box);
         for (const PlacedGrain& grain : grains) {
             const double gap = gap_of(grain);

@@ -23,7 +23,8 @@
 
 namespace turbidite {
 
-constexpr double shortest_wall = 1e-6;  // [D]
+constexpr double shortest_wall = 1e-6;           // [D]
+constexpr double full_turn = 6.283185307179586;  // [rad]
 
 /// What a wall in space is, and how it moves (space_walls.hpp).
 struct SpaceForm : SpaceWallShape {  // [D]
@@ -59,8 +60,13 @@ InnerWalls read_walls_csv(const std::filesystem::path& file);
 /// In the plane. Writes every column; reading it back gives the same walls.
 std::string walls_csv(const std::vector<InnerWall>& walls);
 
+/// Reports a wall whose images across cyclic sides would lie on the wall itself, at the start or on
+/// the way of one that turns: `turn` is a direction times the largest angle [rad].
+std::vector<CaseProblem> check_period(const InnerWall& wall, const Vec3& turn,
+                                      const PackingBox& box, const std::string& source);
+
 /// Reports grains that a wall, in the plane or its image across cyclic sides, cuts at the start by
-/// more than `tolerance` [D].
+/// more than `tolerance` [D], and walls without a motion that are longer than the period.
 std::vector<CaseProblem> check_walls(const std::vector<InnerWall>& walls, const Packing& grains,
                                      const GrainForms& forms, const PackingBox& box,
                                      const std::string& source,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "coupler/keys/key_value.hpp"
@@ -13,6 +14,7 @@
 #include "coupler/protocol/scene/sides.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/case/grains/start_grains.hpp"
 
 namespace turbidite {
 namespace {
@@ -60,6 +62,14 @@ Vec3 axis_of(const Settings& s, const std::string& name) {
     const Vec3 along{given[0], given[1], given[2]};
     // Of any length in the case: the angle alone says how far it turns.
     return along / norm(along);
+}
+
+/// Direction times the largest angle from where the wall began [rad], 0 if it does not turn.
+Vec3 largest_turn(const Settings& s, const std::string& name) {
+    if (number(s, name, "spin") != 0.0) return full_turn * axis_of(s, name);
+    // a(t) = A (sin(2 pi t/T + phase) - sin(phase))
+    return std::abs(number(s, name, "turn")) *
+           (1.0 + std::abs(std::sin(number(s, name, "phase")))) * axis_of(s, name);
 }
 
 /// A shift in the form of prescribed_motion.hpp: `X Y ANGLE`, or `X Y Z AX AY AZ`.
@@ -240,6 +250,10 @@ std::optional<Objection> bad_inner_wall(const Settings& s, const InnerWall& wall
                      "Set them to 0, or leave motion empty."};
 }
 
+std::string walls_file(const Settings& s) {
+    return std::filesystem::path(s.text("domain.walls_file")).filename().string();
+}
+
 void append(std::string& text, std::int64_t what, const Settings& s, const std::string& name,
             const Scales& scales) {
     const Kind& kind = kind_of(s, name);
@@ -349,7 +363,7 @@ CaseProblems check_motions(const Settings& settings, const std::vector<InnerWall
     for (const InnerWall& wall : walls) {
         if (wall.motion.empty()) continue;
         if (const auto objection = bad_inner_wall(settings, wall))
-            problems.push_back({.source = settings.text("domain.walls_file"),
+            problems.push_back({.source = walls_file(settings),
                                 .line = 0,
                                 .key = {},
                                 .value = {},
@@ -357,8 +371,13 @@ CaseProblems check_motions(const Settings& settings, const std::vector<InnerWall
                                 .allowed = objection->allowed,
                                 .remedy = objection->remedy});
     }
-    // It needs motions without faults.
-    return problems.empty() ? check_balance(settings, entries) : problems;
+    if (!problems.empty()) return problems;  // what follows needs motions without faults
+    for (const InnerWall& wall : walls)
+        if (!wall.motion.empty())
+            append(problems, check_period(wall, largest_turn(settings, wall.motion),
+                                          packing_box(settings), walls_file(settings)));
+    append(problems, check_balance(settings, entries));
+    return problems;
 }
 
 std::vector<std::string> unfollowed_motions(const Settings& settings,

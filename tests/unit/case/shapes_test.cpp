@@ -258,6 +258,33 @@ TEST_F(WallsFile, AWallThatIsLongerThanTheBoxRepeatsIsRefused) {
                 "wall 1 is 12.0067 D long along x when it has turned");
 }
 
+/// By spin it lies flat once; of a rocking one the angle decides.
+TEST_F(WallsFile, AWallThatAMotionTurnsIsNotLongerThanTheBoxRepeatsEither) {
+    folder.write("grains.csv", "id,x,y\n9,1,6\n");
+    folder.write("walls.csv", "id,x1,y1,x2,y2,thickness,motion\n1,5,3,5,15,0.4,rock\n");
+    const auto with = [&](std::vector<std::string> motion) {
+        motion.insert(motion.end(), {"domain.walls_file=walls.csv", "domain.size=[10,20]",
+                                     "domain.left=cyclic", "domain.right=cyclic"});
+        return refusal("grains: {file: grains.csv, adapter: standalone-nscd}\n", motion);
+    };
+    const std::string constant = "domain.motions.rock.kind=constant",
+                      harmonic = "domain.motions.rock.kind=harmonic",
+                      period = "domain.motions.rock.period=4";
+    EXPECT_EQ(with({constant, "domain.motions.rock.velocity=[0, 0.1]"}), "");
+    EXPECT_SAYS(with({constant, "domain.motions.rock.spin=0.1"}),
+                "wall 1 is 12.0067 D long along x when it has turned");
+    // 0.4 cos(a) + 12 sin(a) is 10 at a = 0.951.
+    EXPECT_EQ(with({harmonic, period, "domain.motions.rock.turn=0.94"}), "");
+    EXPECT_SAYS(with({harmonic, period, "domain.motions.rock.turn=-0.96"}), "long along x");
+    // From the end of its way it turns by twice as much.
+    EXPECT_SAYS(with({harmonic, period, "domain.motions.rock.turn=0.5",
+                      "domain.motions.rock.phase=1.5707963"}),
+                "long along x");
+    folder.write("walls.csv", "id,x1,y1,x2,y2,thickness,motion\n1,-2,3,10,3,0.4,rock\n");
+    EXPECT_SAYS(with({constant, "domain.motions.rock.velocity=[0, 0.1]"}),
+                "wall 1 is 12 D long along x");
+}
+
 /// Rows above 8 D grow to some 0.8 D: what lies across them must be thicker there.
 TEST_F(WallsFile, WhereRowsAreStretchedAWallIsAsThickAsTwoOfThem) {
     folder.write("grains.csv", "id,x,y\n9,0.6,1\n");
