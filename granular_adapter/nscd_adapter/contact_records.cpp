@@ -41,7 +41,7 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
     else
         record.a = bodies.id[point.a];
     record.feature = point.feature;
-    record.status = status_of(contact, engine.carried()[k], world_moment(engine.solution(), k));
+    record.status = status_of(contact, engine.carried()[k], world_moment(engine.carried(), k));
     if (!(engine.carried()[k].n > 0.0) && engine.solution()[k].n != 0.0)
         record.status |= ContactStatus::film;
     record.gap = point.gap;

@@ -47,6 +47,14 @@ LawSettings law_settings(const EngineSettings& settings) {
     return result;
 }
 
+/// Zero of bodies that contacts do no work on: fixed ones, moved by a prescribed motion or not.
+std::vector<Twist> free_twists(const Bodies& bodies) {
+    std::vector<Twist> twists = bodies.twist;
+    for (std::size_t i = 0; i < twists.size(); ++i)
+        if (bodies.fixed[i]) twists[i] = {};
+    return twists;
+}
+
 void check_step(double dt) {
     if (!(dt > 0.0)) throw std::invalid_argument("the time step must be positive");
 }
@@ -240,7 +248,13 @@ SolverResult Engine::solve(double dt) {
     if (!detection_.has_corners()) return result;
     std::vector<double> shortfalls(contacts_.points.size(), 0.0);
     for (int round = 0; round < turn_rounds; ++round) {
-        if (!(take_turns(result.velocities, shortfalls, dt) > turn_share)) break;
+        std::vector<double> wanted = wanted_shortfalls(result.velocities, dt);
+        if (!(largest_turn(result.velocities, wanted, shortfalls, dt) > turn_share)) break;
+        // b_n = (g - wanted)/dt: the side is kept as much farther away as its turn will bring it
+        // nearer.
+        for (std::size_t k = 0; k < wanted.size(); ++k)
+            contacts_.problem.contacts[k].bias.n -= (wanted[k] - shortfalls[k]) / dt;
+        shortfalls = std::move(wanted);
         SolverResult next =
             solver_->solve(contacts_.problem, result.impulses, settings_.solver_settings);
         next.iterations += result.iterations;
@@ -249,33 +263,32 @@ SolverResult Engine::solve(double dt) {
     return result;
 }
 
-/// Updates the biases for the shortfalls at these velocities. Returns the largest change over the
-/// body's radius, among contacts of all ranks that would end with an overlap.
-double Engine::take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
-                          double dt) {
-    const Bodies& bodies = bodies_of_points();
-    const std::vector<double> found = gap_shortfalls(
-        {contacts_.points, contacts_.problem.contacts, bodies, placed_walls_, velocities, dt},
-        detection_.narrow_phase());
+/// By how much gaps end smaller at these velocities than their speed foretells. A corner that ends
+/// farther away does no harm: only positive shortfalls count. A rebound makes up for its part.
+std::vector<double> Engine::wanted_shortfalls(const std::vector<Twist>& velocities, double dt) {
+    std::vector<double> found = gap_shortfalls({contacts_.points, contacts_.problem.contacts,
+                                                bodies_of_points(), placed_walls_, velocities, dt},
+                                               detection_.narrow_phase());
+    for (std::size_t k = 0; k < found.size(); ++k)
+        found[k] = std::max(0.0, found[k] - dt * contacts_.problem.contacts[k].rebound_lead);
+    return found;
+}
+
+/// The largest change of the shortfalls since the last round, which are in the biases already, over
+/// the body's radius, among contacts of all ranks that would end with an overlap.
+double Engine::largest_turn(const std::vector<Twist>& velocities, const std::vector<double>& wanted,
+                            const std::vector<double>& shortfalls, double dt) {
+    const std::vector<double>& radius = bodies_of_points().radius;
     double change_of_any = 0.0;
-    for (std::size_t k = 0; k < found.size(); ++k) {
-        Contact& contact = contacts_.problem.contacts[k];
-        // A corner that ends farther away than foreseen does no harm: only positive shortfalls
-        // count, and only their change since the last round, since earlier ones are in the bias
-        // already.
-        // A rebound makes up for its part of them.
-        const double wanted = std::max(0.0, found[k] - dt * contact.rebound_lead);
-        const double change = wanted - shortfalls[k];
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        const Contact& contact = contacts_.problem.contacts[k];
+        const double change = wanted[k] - shortfalls[k];
         const double u = contact_velocity(contact, velocities).n + contact.bias.n;
         // With b_n = (g - shortfall)/dt the gap will be dt u - change at the end of the step, or
         // more by the rebound's lead.
         if (dt * u < change)
-            change_of_any = std::max(change_of_any,
-                                     change / bodies.radius[static_cast<std::size_t>(contact.b)]);
-        // b_n = (g - wanted)/dt: the side is kept as much farther away as its turn will bring it
-        // nearer.
-        contact.bias.n -= change / dt;
-        shortfalls[k] = wanted;
+            change_of_any =
+                std::max(change_of_any, change / radius[static_cast<std::size_t>(contact.b)]);
     }
     return shared_.ranks ? largest(shared_.ranks->ranks(), change_of_any) : change_of_any;
 }
@@ -442,8 +455,9 @@ void Engine::look_at_films(const Impulses& found, const std::vector<Twist>& velo
     contacts_.approach.clear();
     if (contacts_.problem.films.empty()) return;
     contacts_.pressing = carried_by_contacts(contacts_.problem, found, velocities);
+    const std::vector<Twist> before = free_twists(bodies_of_points());
     for (const Contact& contact : contacts_.problem.contacts)
-        contacts_.approach.push_back(contact_velocity(contact, bodies_of_points().twist).n);
+        contacts_.approach.push_back(contact_velocity(contact, before).n);
 }
 
 /// Contacts that press, those of films alone not among them.
@@ -456,10 +470,10 @@ std::int64_t Engine::loaded_contacts() const {
 
 double Engine::film_work() {
     follow_bodies();
+    const std::vector<Twist> after = free_twists(bodies_of_points());
     double work = 0.0;
     for (std::size_t k = 0; k < contacts_.approach.size(); ++k) {
-        const double now =
-            contact_velocity(contacts_.problem.contacts[k], bodies_of_points().twist).n;
+        const double now = contact_velocity(contacts_.problem.contacts[k], after).n;
         // Impulse of the film times the mean velocity of the step, (u_n^- + u_n^+)/2 [J].
         work += (contacts_.solution[k].n - contacts_.pressing[k].n) * 0.5 *
                 (contacts_.approach[k] + now);

@@ -137,8 +137,8 @@ class Engine {
     /// (residual.hpp) [m/s].
     double contact_violation();
 
-    /// Work of the films on the bodies in the last step, with the mean of the velocities at its
-    /// start and of their present ones; of several ranks that of their own contacts [J].
+    /// Work of the films on the free bodies in the last step, with the mean of the velocities at
+    /// its start and of their present ones; of several ranks that of their own contacts [J].
     double film_work();
 
     /// Contact points of the last step, and the impulses on the bodies there. With an attractive
@@ -211,8 +211,9 @@ class Engine {
     void look_at_films(const Impulses& found, const std::vector<Twist>& velocities);
     std::int64_t loaded_contacts() const;
     void follow_bodies();
-    double take_turns(const std::vector<Twist>& velocities, std::vector<double>& shortfalls,
-                      double dt);
+    std::vector<double> wanted_shortfalls(const std::vector<Twist>& velocities, double dt);
+    double largest_turn(const std::vector<Twist>& velocities, const std::vector<double>& wanted,
+                        const std::vector<double>& shortfalls, double dt);
     ContactKey key(const ContactPoint& point) const;
     void forget_step();
     void release_step();

@@ -6,6 +6,16 @@
 #include <stdexcept>
 
 namespace turbidite::nscd {
+namespace {
+
+/// u_n >= speed, unless the terms already require more.
+void demand_speed(double speed, LawTerms& terms) {
+    if (!(-speed < terms.normal_bias)) return;
+    terms.rebound_lead = terms.normal_bias + speed;
+    terms.normal_bias = -speed;
+}
+
+}  // namespace
 
 double speed_lost(const ContactSituation& s, const FilmTerms& film) {
     if (film.coefficient == 0.0) return 0.0;
@@ -38,9 +48,11 @@ void demand_rebound(const ContactSituation& s, double restitution, LawTerms& ter
     // The film takes its part again on the way back to the gap at which the window began.
     const double rebound =
         -restitution * approach_at_touch(s, terms.film) - speed_lost(s, terms.film);
-    if (!(rebound > 0.0 && -rebound < terms.normal_bias)) return;
-    terms.rebound_lead = terms.normal_bias + rebound;
-    terms.normal_bias = -rebound;
+    if (rebound > 0.0) demand_speed(rebound, terms);
+}
+
+void end_approach(LawTerms& terms) {
+    demand_speed(0.0, terms);
 }
 
 bool never_bounces(const SurfaceTable& surfaces) {

@@ -25,6 +25,10 @@ bool in_impact(const ContactSituation& situation, const LawTerms& terms, double 
 /// Imposes u_n >= -e u_n^-, less what a film takes, unless the terms already require more.
 void demand_rebound(const ContactSituation& situation, double restitution, LawTerms& terms);
 
+/// Imposes u_n >= 0 as well where there is no rebound: else what closes the gap in this step would
+/// be an impact again in the next, and a tangential restitution would act twice.
+void end_approach(LawTerms& terms);
+
 /// True if no pair of surfaces has a restitution coefficient above zero.
 bool never_bounces(const SurfaceTable& surfaces);
 

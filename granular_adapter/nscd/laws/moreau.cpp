@@ -29,6 +29,7 @@ std::optional<LawPart> make_moreau(const LawSettings& settings, const SurfaceTab
                            const double restitution = s.surface.restitution;
                            if (restitution == 0.0 || !in_impact(s, terms, threshold)) return;
                            demand_rebound(s, restitution, terms);
+                           end_approach(terms);  // of a film that takes all of the rebound
                            terms.tangential_restitution = restitution;  // b_t = e u_t^-
                            terms.rolling_restitution = restitution;     // e w^-
                        },

@@ -20,6 +20,8 @@ std::optional<LawPart> make_newton(const LawSettings& settings, const SurfaceTab
                            if (!in_impact(s, terms, threshold)) return;
                            if (s.surface.restitution > 0.0)
                                demand_rebound(s, s.surface.restitution, terms);
+                           if (s.surface.restitution_tangential == 0.0) return;
+                           end_approach(terms);
                            terms.tangential_restitution = s.surface.restitution_tangential;
                        },
                    .reads_velocities = true};

@@ -16,6 +16,8 @@
 //         product(B, r)                    W_kk r
 //         squared(B, u)                    |u|^2, with spins scaled to velocities
 //         map_terms(contact, B, r, u, turning)   in space: of contacts with moments
+//         carried_part(contact, B, r, u)         with a film: what the contact carries
+//         held_moment(contact, B, n, turning)    in space: of a contact that carries n
 //
 // A kind that nlgs solves also has packed rows (sweeps/sweep_layout.hpp), and a function that
 // chooses them by the operator,

@@ -76,9 +76,14 @@ Impulses carried_by_contacts(const ContactProblem& problem, const Impulses& r,
     if (problem.films.empty()) return carried;
     with_operator(problem, [&](const auto& w) {
         for (std::size_t k = 0; k < r.size(); ++k) {
-            // b of the contact alone is u - W_nn r_n, the velocity without its own impulse.
-            const double nn = w.block(k).nn, u = biased_velocity(problem.contacts[k], v).n;
-            carried[k].n = solve_film(problem.films[k], nn, u - nn * r[k].n).contact;
+            const Contact& contact = problem.contacts[k];
+            const auto& block = w.block(k);
+            carried[k] = carried_part(contact, block, r[k], biased_velocity(contact, v));
+            if constexpr (requires { held_moment(contact, block, 0.0, Turning{}); })
+                if (!r.moments.empty() && block.rr > 0.0)
+                    carried.moments[k] =
+                        held_moment(contact, block, carried[k].n,
+                                    {r.moments[k], relative_spin(contact, v) + contact.spin_bias});
         }
     });
     return carried;

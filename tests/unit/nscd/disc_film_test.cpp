@@ -343,6 +343,55 @@ TEST(DiscFilm, ItsWorkIsTheEnergyThatIsMissing) {
     EXPECT_NEAR(energy() - before, work, 1e-13);
 }
 
+// Contacts work on free bodies alone: so do films. A driven disc pushes a free one, film alone.
+TEST(DiscFilm, WorksOnFreeBodiesAlone) {
+    EngineSettings settings = filmed(0.02);
+    settings.gravity = {};
+    Engine engine(settings, scenes::discs, {});
+    engine.bodies().add(scenes::disc(1, 0.0, 0.0));
+    engine.bodies().add(scenes::disc(2, 1.05, 0.0));
+    engine.bodies().fixed[0] = 1;
+    engine.bodies().twist[0].velocity = {0.2, 0.0, 0.0};
+    double work = 0.0, of_film = 0.0;
+    for (int i = 0; i < 20; ++i) {
+        const Vec3 before = engine.bodies().twist[1].velocity;
+        ASSERT_EQ(engine.step(0.01).contacts, 0);
+        // J . (v^- + v^+)/2
+        work += 0.5 *
+                dot(engine.bodies().contact_impulse[1], before + engine.bodies().twist[1].velocity);
+        of_film += engine.film_work();
+        engine.move(0.01);
+    }
+    EXPECT_GT(work, 0.001);
+    EXPECT_NEAR(of_film, work, 1e-14);
+}
+
+// A film between grains and floor changes neither what slides nor the coefficient of what slides:
+// in the step after the first every contact with the floor has the lower one, and is at its limit.
+TEST(DiscFilm, WhatSlidesBelowAFilmHasTheLowerFriction) {
+    const double slope = 0.8, alpha = std::atan(slope);
+    Engine engine = scenes::sliding_layers(slope, 2, 0.001);
+    engine.step(0.01);
+    engine.move(0.01);
+    int sliding = 0, films = 0;
+    for (int n = 1; n < 100; ++n) {
+        ASSERT_TRUE(engine.step(0.01).converged);
+        for (std::size_t k = 0; k < engine.points().size(); ++k) {
+            const ContactVector r = engine.carried()[k];
+            if (engine.points()[k].wall < 0 || !(r.n > 0.0)) continue;
+            ++sliding, films += r.n < engine.solution()[k].n;
+            EXPECT_EQ(engine.problem().contacts[k].friction, 0.3);
+            EXPECT_NEAR(tangential(r), 0.3 * r.n, 1e-12 * r.n);
+        }
+        engine.move(0.01);
+    }
+    EXPECT_GT(sliding, 700);
+    EXPECT_GT(films, 100) << "films carry a part";
+    double mean = 0.0;
+    for (const Twist& twist : engine.bodies().twist) mean += twist.velocity[0] / 32.0;
+    EXPECT_NEAR(mean, 0.5 + std::sin(alpha) - 0.3 * std::cos(alpha), 0.002);
+}
+
 EngineSettings with_rolling(EngineSettings settings) {
     Surface surface;
     surface.friction = 0.4;

@@ -53,7 +53,8 @@ struct Played {
 
 inline ContactKey key_of(const Engine& engine, const ContactPoint& point) {
     const std::vector<GrainId>& id = engine.bodies_of_points().id;
-    if (point.wall >= 0) return {engine.walls()[point.wall].key, id[point.b], 1, point.feature};
+    if (point.wall >= 0)
+        return {engine.walls_of_points()[point.wall].key, id[point.b], 1, point.feature};
     return {id[point.a], id[point.b], 0, point.feature};
 }
 

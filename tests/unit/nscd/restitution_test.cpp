@@ -6,8 +6,8 @@
 #include <random>
 
 #include "coupler/rigid/vec3.hpp"
+#include "films.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
-#include "scenes.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -129,6 +129,32 @@ TEST(Restitution, SuperballReversesItsSlip) {
         // Initially 0.5 + R spin = 2.
         EXPECT_NEAR(after.velocity[0] + 0.5 * after.spin[2], -2.0, 1e-12);
         EXPECT_NEAR(kinetic_energy(engine.bodies()), before, 1e-12);
+    }
+}
+
+// The slip is turned back once, whatever the gap at the start and whether there is a rebound: none
+// without normal restitution, or where a film takes all of it.
+TEST(Restitution, TurnsTheSlipBackOnce) {
+    const auto slip_after = [](EngineSettings settings, double gap) {
+        settings.gravity = {};
+        Engine engine(settings, scenes::discs, {scenes::floor(10.0)});
+        engine.bodies().add(scenes::disc(1, 0.0, 0.5 + gap));
+        engine.bodies().rotation_blocked[0] = 1;
+        engine.bodies().twist[0].velocity = {1.0, -1.0, 0.0};
+        scenes::run(engine, 0.2, 0.01);
+        return engine.bodies().twist[0].velocity[0];
+    };
+    for (const double gap : {0.0, 0.002, 0.005, 0.008, 0.0099})
+        for (const double restitution : {0.0, 0.001, 0.5}) {
+            EngineSettings settings = bouncing(restitution, 10.0);
+            settings.surfaces[0].restitution_tangential = 0.5;
+            EXPECT_NEAR(slip_after(settings, gap), -0.5, 1e-12) << gap << " " << restitution;
+        }
+    for (const char* law : {"newton", "moreau"}) {
+        EngineSettings settings = scenes::with_film(bouncing(0.3, 10.0), 0.0016);
+        settings.law.impact = law;
+        if (settings.law.impact == "newton") settings.surfaces[0].restitution_tangential = 0.3;
+        EXPECT_NEAR(slip_after(settings, 0.005), -0.3, 1e-9) << law;
     }
 }
 

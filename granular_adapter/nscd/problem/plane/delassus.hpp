@@ -75,6 +75,11 @@ inline ContactVector solution(const Contact& contact, const Block& w, const Cont
     return without_film(w, b, contact.friction, contact.rolling);
 }
 
+inline ContactVector carried_part(const Contact& contact, const Block& w, const ContactVector& r,
+                                  const ContactVector& u) {
+    return carried_part(w, u - product(w, r), contact.friction, contact.rolling);
+}
+
 /// Film and contact are no cone, so the measure is what one exact update of the contact alone would
 /// change, |r - r*|^2, the moment over rolling_length().
 inline MapTerms filmed_terms(const Contact& contact, const Block& w, const ContactVector& r,

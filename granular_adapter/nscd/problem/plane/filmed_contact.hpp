@@ -19,15 +19,28 @@ inline ContactVector without_film(const Block& w, const ContactVector& b, double
                                        : without_rolling(w, b, friction);
 }
 
+/// b of the contact without a film whose solution is what the film at the closed gap does not
+/// carry.
+inline ContactVector beyond_film(const Block& w, const ContactVector& b) {
+    const double closed = w.film->closed();
+    return b + in_plane(closed * w.nn, closed * w.nt, closed * w.nr);
+}
+
 /// r with u = W r + b that solves the contact; requires a film.
 inline ContactVector solve_filmed_contact(const Block& w, const ContactVector& b, double friction,
                                           double rolling) {
-    const double closed = w.film->closed();
-    const ContactVector left = b + in_plane(closed * w.nn, closed * w.nt, closed * w.nr);
+    const ContactVector left = beyond_film(w, b);
     if (left.n >= 0.0) return in_plane(solve_film(*w.film, w.nn, b.n).impulse, 0.0);
     ContactVector r = without_film(w, left, friction, rolling);
-    r.n += closed;
+    r.n += w.film->closed();
     return r;
+}
+
+/// What the contact carries of it: |r_t| = mu r_n where it slides, to the last digit.
+inline ContactVector carried_part(const Block& w, const ContactVector& b, double friction,
+                                  double rolling) {
+    const ContactVector left = beyond_film(w, b);
+    return left.n >= 0.0 ? ContactVector{} : without_film(w, left, friction, rolling);
 }
 
 }  // namespace turbidite::nscd
