@@ -129,9 +129,9 @@ std::vector<ContactPoint> Detection::points(const Bodies& bodies, const std::vec
 }
 
 OrderedPoints Detection::ordered_points(const Search& search) const {
-    const auto& [bodies, walls, gravity, reach, share] = search;
+    const auto& [bodies, walls, gravity, reach, share, joined] = search;
     if (bodies.size() == 0) return {};
-    const Look look{bodies, walls, reach, share, narrow_.place(bodies, walls)};
+    const Look look{bodies, walls, reach, share, narrow_.place(bodies, walls, joined)};
     const double band = one_height * *std::min_element(bodies.radius.begin(), bodies.radius.end());
     if (order_ == ContactOrder::cells && !has_corners()) {
         CellOrder order({bodies, walls, box_, gravity, reach, share, band});
@@ -146,7 +146,7 @@ OrderedPoints Detection::ordered_points(const Search& search, const ParityGrid& 
                                         std::size_t own) const {
     const Bodies& bodies = search.bodies;
     const Look look{bodies, search.walls, search.reach, search.share,
-                    narrow_.place(bodies, search.walls)};
+                    narrow_.place(bodies, search.walls, search.joined)};
     // The smallest radius of all ranks: layers must not depend on which bodies this rank has.
     const double band = one_height * grid.sizes().smallest;
     CellOrder order({bodies, search.walls, box_, search.gravity, search.reach, search.share, band},

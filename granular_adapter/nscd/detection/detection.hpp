@@ -49,6 +49,9 @@ class Detection {
         const std::vector<Wall>& walls;
         Vec3 gravity{};
         double reach = 0.0, share = 0.0;
+        /// Without the points where a plate or rectangle ends and others lead nearer
+        /// (plane/plate_joints.hpp). What acts across gaps goes along by them (common_edges.hpp).
+        bool joined = true;
     };
     OrderedPoints ordered_points(const Search& search) const;
 

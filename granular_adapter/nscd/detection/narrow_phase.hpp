@@ -8,15 +8,19 @@
 
 #include "granular_adapter/nscd/detection/contact_point.hpp"
 #include "granular_adapter/nscd/detection/plane/placed_polygons.hpp"
+#include "granular_adapter/nscd/detection/plane/plate_joints.hpp"
+#include "granular_adapter/nscd/detection/space/rectangle_joints.hpp"
 #include "granular_adapter/nscd/detection/space/wall_joints.hpp"
 
 namespace turbidite::nscd {
 
-/// What is found once per configuration: the shapes with corners of all bodies, in world axes, and
-/// the rims that walls have in common.
+/// What is found once per configuration: the shapes with corners of all bodies, in world axes, the
+/// rims that round walls have in common, and where plates and rectangles end on others.
 struct PlacedShapes {
     PlacedPolygons polygons;
     WallJoints joints;
+    PlateJoints plates = {};
+    RectangleJoints rectangles = {};
 };
 
 using PairDetector = void (*)(const PairView&, std::vector<ContactPoint>&);
@@ -48,9 +52,13 @@ class NarrowPhase {
     /// Throws std::invalid_argument for a wall that these shapes cannot touch (walls.hpp).
     void check(const Wall& wall) const;
 
-    /// Once per configuration; views refer to the result.
-    PlacedShapes place(const Bodies& bodies, const std::vector<Wall>& walls = {}) const {
-        return {{polygons_, bodies}, WallJoints(walls)};
+    /// Once per configuration; views refer to the result. `joined`: without the points where a
+    /// plate or rectangle ends and others lead nearer.
+    PlacedShapes place(const Bodies& bodies, const std::vector<Wall>& walls = {},
+                       bool joined = false) const {
+        PlacedShapes placed{{polygons_, bodies}, WallJoints(walls)};
+        if (joined) placed.plates = PlateJoints(walls), placed.rectangles = RectangleJoints(walls);
+        return placed;
     }
     bool has_corners() const { return polygons_.any(); }
     bool has_corners(std::int32_t shape) const { return polygons_[shape].corners > 0; }

@@ -177,8 +177,9 @@ void Engine::release_step() {
 /// Finds every contact point that may close within the step.
 void Engine::detect() {
     placed_walls_ = placed_walls(reach_);
-    const Detection::Search search{bodies_of_points(), placed_walls_, settings_.gravity, reach_,
-                                   alert_share};
+    const Detection::Search search{bodies_of_points(), placed_walls_,
+                                   settings_.gravity,  reach_,
+                                   alert_share,        laws_.law().range() == 0.0};
     OrderedPoints found = shared_.ranks
                               ? detection_.ordered_points(search, *shared_.grid, bodies_.size())
                               : detection_.ordered_points(search);

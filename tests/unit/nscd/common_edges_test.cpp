@@ -223,5 +223,36 @@ TEST(CommonEdges, AReboundAtAJointIsThatOfOneFloor) {
     }
 }
 
+// A sphere goes over the joint of two rectangles, across the corner of four, and from a floor as
+// long as the period into its image, as over one floor: it neither rebounds nor slows down.
+TEST(CommonEdges, JoinedRectanglesAreOneFloor) {
+    EngineSettings settings = scenes::exact_in_space(0.0, 1e-13);
+    Surface elastic;
+    elastic.friction = 0.0;
+    elastic.restitution = 0.5;
+    settings.surfaces = {elastic};
+    const auto places = [&](std::vector<Wall> walls, double period) {
+        EngineSettings own = settings;
+        own.box.length = {period, 0.0, 0.0};
+        Engine engine(own, scenes::spheres, walls);
+        engine.bodies().add(scenes::sphere(1, {-1.0, 0.5, -0.3}));
+        engine.bodies().twist[0].velocity = {3.0, 0.0, 0.9};
+        for (int n = 0; n < 80; ++n) {
+            engine.step(0.01);
+            EXPECT_EQ(engine.points().size(), 1u) << n;
+            engine.move(0.01);
+        }
+        return engine.bodies().position[0];
+    };
+    const Vec3 end = places({floor_part(1, -5, 5, -5, 5)}, 0.0);
+    EXPECT_LT(norm(end - Vec3{1.4, 0.5, 0.42}), 1e-12);
+    for (const auto& floor : std::vector<std::vector<Wall>>{
+             {floor_part(1, -5, 0.013, -5, 5), floor_part(2, 0.013, 5, -5, 5)},
+             {floor_part(1, -5, 0, -5, 0), floor_part(2, 0, 5, -5, 0), floor_part(3, -5, 0, 0, 5),
+              floor_part(4, 0, 5, 0, 5)}})
+        EXPECT_LT(norm(places(floor, 0.0) - end), 1e-12);
+    EXPECT_LT(norm(places({floor_part(1, -3.6, 0.4, -5, 5)}, 4.0) - end), 1e-12);
+}
+
 }  // namespace
 }  // namespace turbidite::nscd

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "granular_adapter/nscd/detection/narrow_phase.hpp"
 #include "granular_adapter/nscd/detection/round_contacts.hpp"
 
 namespace turbidite::nscd {
@@ -25,6 +26,7 @@ void disc_corner(const WallView& view, double end, std::vector<ContactPoint>& po
     // A disc whose centre is the corner may leave along the wall.
     const Vec3 normal =
         distance > 0.0 ? (1.0 / distance) * offset : std::copysign(1.0, end) * tangent;
+    if (view.placed && !view.placed->plates.is_nearest(view.wall_index, end > 0.0, normal)) return;
     // Features: 0 the side, 1 and 2 its ends.
     points.push_back({-1, view.body, view.wall_index, end > 0.0 ? 1 : 2, distance - radius, normal,
                       Vec3{}, -radius * normal});

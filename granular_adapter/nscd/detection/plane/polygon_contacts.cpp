@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "granular_adapter/nscd/detection/plane/polygon_contacts.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "coupler/rigid/vec3.hpp"
@@ -9,6 +10,9 @@
 
 namespace turbidite::nscd {
 namespace {
+
+// Of half a plate: a place that is nearer to its end is the end.
+constexpr double end_share = 1e-9;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -75,6 +79,17 @@ struct Plate {
     }
 };
 
+/// Whether a point is none since another plate leads on from the end at which it is
+/// (plate_joints.hpp). A point whose normal is that of the plate's own side is always one.
+bool leads_on(const WallView& view, const ManifoldPoint& p) {
+    if (p.turns_with == 1) return false;
+    const Vec3 normal{p.nx, p.ny, 0.0}, middle{p.x, p.y, 0.0};
+    // On the plate, along it from its middle.
+    const double at = dot(cross({0, 0, 1}, view.wall.normal), middle - 0.5 * p.gap * normal);
+    const bool inside = std::abs(at) < view.wall.half_length * (1.0 - end_share);
+    return !inside && !view.placed->plates.may_hold(view.wall_index, at > 0.0, normal);
+}
+
 void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
     const Vec3 offset = view.bodies.position[view.body] - view.wall.point;
     // A plate holds a body on the side on which its centre lies.
@@ -86,6 +101,7 @@ void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
     for (int i = 0; i < manifold.count; ++i) {
         const ManifoldPoint& p = manifold.points[static_cast<std::size_t>(i)];
         const Vec3 normal{p.nx, p.ny, 0.0}, middle{p.x, p.y, 0.0};
+        if (leads_on(view, p)) continue;
         // From the middle of the gap to the surface of the body, where arms at walls end.
         const Vec3 arm = middle + 0.5 * p.gap * normal - offset;
         // Seen from behind, the corners of the plate are exchanged.

@@ -103,6 +103,10 @@ void sphere_rectangle(const WallView& view, std::vector<ContactPoint>& points) {
     if (!(gap < view.alert)) return;
     // A centre above the rectangle is held on its side; beside it the contact is with an edge or
     // corner.
+    if (!inside && view.placed &&
+        !view.placed->rectangles.is_nearest(view.wall_index,
+                                            view.bodies.position[view.body] - offset, offset))
+        return;
     const Vec3 normal =
         inside ? (height < 0.0 ? -1.0 : 1.0) * wall.normal : (1.0 / distance) * offset;
     add_point(view, normal, gap, inside ? 0 : 1, points);

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "granular_adapter/nscd/detection/plane/plate_joints.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupler/rigid/vec3.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+// Of the size of the larger plate: rounding of places on it.
+constexpr double on_a_plate = 1e-9;
+
+// Cosine above which a plate leads nearer to a body: two points for one where it just does, so that
+// rounding never leaves none.
+constexpr double leads_nearer = 1e-9;
+
+// Cosine of the sharpest kink that counts as a surface that goes on below a polygon: 30 degrees.
+constexpr double sharpest_kink = 0.866;
+
+bool is_plate(const Wall& wall) {
+    return wall.form == WallForm::flat && has_ends(wall);
+}
+
+/// e_z x n
+Vec3 along(const Wall& wall) {
+    return {-wall.normal[1], wall.normal[0], 0.0};
+}
+
+/// Directions in which a plate leads on from a place on it.
+void add_onward(const Wall& wall, const Vec3& place, double tolerance, std::vector<Vec3>& onward) {
+    const double at = dot(along(wall), place - wall.point);
+    if (at < wall.half_length - tolerance) onward.push_back(along(wall));
+    if (at > -wall.half_length + tolerance) onward.push_back(-1.0 * along(wall));
+}
+
+}  // namespace
+
+PlateJoints::PlateJoints(const std::vector<Wall>& walls) {
+    if (std::count_if(walls.begin(), walls.end(), is_plate) < 2) return;
+    std::vector<std::array<End, 2>> ends(walls.size());
+    bool any = false;
+    for (std::size_t i = 0; i < walls.size(); ++i)
+        for (std::size_t j = 0; j < walls.size(); ++j) {
+            const Wall &own = walls[i], &other = walls[j];
+            if (i == j || !is_plate(own) || !is_plate(other)) continue;
+            const double tolerance = on_a_plate * std::max(size_of(own), size_of(other));
+            if (norm(other.point - own.point) > own.half_length + other.half_length + tolerance ||
+                own.half_thickness > other.half_thickness + tolerance)
+                continue;
+            for (const std::size_t end : {0, 1}) {
+                End& here = ends[i][end];
+                here.outward = (end == 0 ? -1.0 : 1.0) * along(own);
+                const Vec3 place = own.point + own.half_length * here.outward;
+                if (is_on(other, place, tolerance))
+                    add_onward(other, place, tolerance, here.onward);
+                any = any || !here.onward.empty();
+            }
+        }
+    if (any) ends_ = std::move(ends);
+}
+
+const PlateJoints::End* PlateJoints::find(std::int32_t wall, std::size_t end) const {
+    return ends_.empty() ? nullptr : &ends_[static_cast<std::size_t>(wall)][end];
+}
+
+bool PlateJoints::is_nearest(std::int32_t wall, std::size_t end, const Vec3& normal) const {
+    const End* here = find(wall, end);
+    return !here || std::none_of(here->onward.begin(), here->onward.end(),
+                                 [&](const Vec3& d) { return dot(normal, d) > leads_nearer; });
+}
+
+bool PlateJoints::may_hold(std::int32_t wall, std::size_t end, const Vec3& normal) const {
+    const End* here = find(wall, end);
+    return !here || std::none_of(here->onward.begin(), here->onward.end(), [&](const Vec3& d) {
+        return dot(here->outward, d) > sharpest_kink && dot(normal, d) > leads_nearer;
+    });
+}
+
+}  // namespace turbidite::nscd

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Plates that continue each other are one floor (detection/plane/plate_joints.hpp).
+#include <gtest/gtest.h>
+
+#include "coupler/rigid/vec3.hpp"
+#include "polygons.hpp"
+
+namespace turbidite::nscd {
+namespace {
+
+const ShapeTable squares = {scenes::square_record()};
+
+Wall plate(std::int32_t key, const Vec3& from, const Vec3& to, double thickness) {
+    Wall wall = scenes::floor(0.0);
+    wall.key = key;
+    wall.point = 0.5 * (from + to);
+    wall.half_length = 0.5 * norm(to - from);
+    wall.half_thickness = 0.5 * thickness;
+    const Vec3 along = (1.0 / norm(to - from)) * (to - from);
+    wall.normal = {-along[1], along[0], 0.0};
+    return wall;
+}
+
+struct Slide {
+    bool square;
+    double restitution, friction, thickness;
+
+    friend std::ostream& operator<<(std::ostream& out, const Slide& s) {
+        return out << (s.square ? "square" : "disc") << ", e = " << s.restitution
+                   << ", mu = " << s.friction << ", thickness " << s.thickness;
+    }
+};
+
+Engine sliding(const Slide& slide, const std::vector<Wall>& walls, double period = 0.0) {
+    EngineSettings settings = scenes::exact(slide.friction, 1e-13);
+    settings.gravity = {0.0, -1.0, 0.0};
+    Surface surface;
+    surface.friction = slide.friction;
+    surface.restitution = slide.restitution;
+    settings.surfaces = {surface};
+    settings.box.length = {period, 0.0, 0.0};
+    std::vector<Wall> floors = walls;
+    for (Wall& wall : floors) wall.material = 0;
+    Engine engine(settings, slide.square ? squares : scenes::discs, floors);
+    const double height = 0.5 + 0.5 * slide.thickness;
+    engine.bodies().add(slide.square ? scenes::unit_square(squares, 1, -1.5, height)
+                                     : scenes::disc(1, -1.5, height));
+    engine.bodies().twist[0].velocity = {3.0, 0.0, 0.0};
+    return engine;
+}
+
+/// Plays both and compares place, direction and velocity after every step. Returns how often plates
+/// other than the first had a contact.
+int expect_alike(Engine one, Engine other, const Slide& slide, double period = 0.0) {
+    int on_others = 0;
+    for (int n = 0; n < 100; ++n) {
+        one.step(0.01), other.step(0.01);
+        for (std::size_t k = 0; k < one.points().size(); ++k)
+            on_others += one.points()[k].wall > 0 && one.impulses()[k].n > 0.0;
+        one.move(0.01), other.move(0.01);
+        const Bodies &a = one.bodies(), &b = other.bodies();
+        Vec3 apart = a.position[0] - b.position[0];
+        if (period > 0.0) apart[0] -= period * std::round(apart[0] / period);
+        EXPECT_LT(norm(apart), 1e-9) << slide << ", step " << n;
+        EXPECT_LT(norm(a.twist[0].velocity - b.twist[0].velocity), 1e-8) << slide << ", step " << n;
+        EXPECT_LT(norm(a.twist[0].spin - b.twist[0].spin), 1e-8) << slide << ", step " << n;
+        if (::testing::Test::HasFailure()) break;
+    }
+    return on_others;
+}
+
+std::vector<Slide> slides() {
+    std::vector<Slide> all;
+    for (const bool square : {true, false})
+        for (const double restitution : {0.0, 0.5})
+            for (const double friction : {0.0, 0.3})
+                for (const double thickness : {0.0, 0.1})
+                    all.push_back({square, restitution, friction, thickness});
+    return all;
+}
+
+TEST(PlateJoints, TwoPlatesAreOneFloor) {
+    for (const Slide& slide : slides()) {
+        const Vec3 left{-4, 0, 0}, joint{-0.303, 0, 0}, right{6, 0, 0};
+        auto one = sliding(slide, {plate(1, left, right, slide.thickness)});
+        // One of them drawn the other way round, with its normal down.
+        auto two = sliding(slide, {plate(1, left, joint, slide.thickness),
+                                   plate(2, right, joint, slide.thickness)});
+        EXPECT_GT(expect_alike(std::move(two), std::move(one), slide), 20) << slide;
+    }
+}
+
+TEST(PlateJoints, APlateContinuesInItsImage) {
+    for (const Slide& slide : slides()) {
+        auto one = sliding(slide, {plate(1, {-9, 0, 0}, {9, 0, 0}, slide.thickness)});
+        auto cyclic = sliding(slide, {plate(1, {-4.7, 0, 0}, {-0.7, 0, 0}, slide.thickness)}, 4.0);
+        EXPECT_GT(expect_alike(std::move(cyclic), std::move(one), slide, 4.0), 20) << slide;
+    }
+}
+
+// A disc crosses a ridge and a valley of 20 degrees: at the ridge it turns about the common end, in
+// the valley it goes from face to face, and nowhere does it lose more than the kink takes.
+TEST(PlateJoints, AKinkTakesWhatItsAngleTakes) {
+    const double kink = std::numbers::pi / 9.0;
+    const Slide slide{false, 0.0, 0.0, 0.0};
+    const Vec3 top{5.0 * std::cos(kink), 5.0 * std::sin(kink), 0.0};
+    Engine valley =
+        sliding(slide, {plate(1, {-4, 0, 0}, {0, 0, 0}, 0.0), plate(2, {0, 0, 0}, top, 0.0)});
+    double before = 3.0;
+    while (valley.bodies().position[0][0] < 0.1 + 0.5 * std::sin(kink)) {
+        valley.step(0.001);
+        valley.move(0.001);
+        before = norm(valley.bodies().twist[0].velocity);
+    }
+    // u cos(kink) remains; the climb since takes g y.
+    const double height = valley.bodies().position[0][1] - 0.5;
+    EXPECT_NEAR(0.5 * before * before, 0.5 * std::pow(3.0 * std::cos(kink), 2) - height, 0.02);
+}
+
+// A square in the corner of a floor and a plate that stands on it needs the foot of that plate,
+// where the floor leads on in both directions.
+TEST(PlateJoints, ASquareLiesInACornerOfPlates) {
+    EngineSettings settings = scenes::exact(0.3, 1e-13);
+    settings.gravity = {1.0, -1.0, 0.0};
+    Engine engine(settings, squares,
+                  {plate(1, {-4, 0, 0}, {4, 0, 0}, 0.0), plate(2, {1, 0, 0}, {1, 3, 0}, 0.0)});
+    engine.bodies().add(scenes::unit_square(squares, 1, 0.5, 0.5));
+    EXPECT_TRUE(scenes::run(engine, 5.0, 0.01));
+    EXPECT_LT(norm(engine.bodies().position[0] - Vec3{0.5, 0.5, 0.0}), 1e-9);
+    EXPECT_LT(norm(engine.bodies().twist[0].spin), 1e-9);
+    EXPECT_LT(engine.max_penetration(), 1e-9);
+}
+
+// Where laws act across gaps these points stay: bridges go along by them.
+TEST(PlateJoints, WithALawOfARangeTheEndsStay) {
+    for (const double range : {0.0, 0.1}) {
+        EngineSettings settings = scenes::adhesive(range > 0.0 ? "wet" : "none", range, range);
+        Engine engine(settings, scenes::discs,
+                      {plate(1, {-4, 0, 0}, {0, 0, 0}, 0.0), plate(2, {0, 0, 0}, {4, 0, 0}, 0.0)});
+        engine.bodies().add(scenes::disc(1, -0.01, 0.5));
+        engine.step(0.01);
+        EXPECT_EQ(engine.points().size(), range > 0.0 ? 2u : 1u);
+    }
+}
+
+}  // namespace
+}  // namespace turbidite::nscd
