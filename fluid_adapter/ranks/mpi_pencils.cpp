@@ -33,7 +33,7 @@ MpiPencils::MpiPencils(const RankGroup& group, int columns, const std::vector<Sp
       modes_of_rank_(even_spans(columns, group.size())),
       row_values_(aligned_values(static_cast<std::size_t>(columns) * own_rows().count)),
       starts_(group.size()) {
-    if (shared_memory) {
+    if (shared_memory && SharedValues::fits(group, column_size())) {
         shared_ = std::make_unique<SharedValues>(group, column_size());
         return;
     }

@@ -5,7 +5,8 @@
 //
 // Columns are stored row by row, so that the contribution of another rank's rows is contiguous. On
 // one node the columns are in memory shared by the ranks, and every rank copies the parts of its
-// rows to their places and back. Between nodes they are sent as messages: packed on the way to the
+// rows to their places and back. Between nodes, and where that memory is short, they are sent as
+// messages: packed on the way to the
 // columns, where they arrive in place; on the way back they are sent in place and unpacked.
 //
 // Measured at 320 x 960 cells on two ranks of one node, without the kernel's copying between
@@ -28,7 +29,7 @@ class MpiPencils final : public Pencils {
     MpiPencils(const RankGroup& group, int columns, const std::vector<Span>& rows_of_rank)
         : MpiPencils(group, columns, rows_of_rank, group.one_node()) {}
 
-    /// Chooses whether memory is shared; for tests.
+    /// Chooses whether memory is shared where it has room; for tests.
     MpiPencils(const RankGroup& group, int columns, const std::vector<Span>& rows_of_rank,
                bool shared_memory);
 

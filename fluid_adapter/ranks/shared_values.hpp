@@ -12,11 +12,20 @@
 
 namespace turbidite {
 
+/// Free bytes of the file system behind the memory that MPI shares; infinite if it is unknown.
+double free_shared_memory();
+
 class SharedValues {
  public:
+    /// Whether there is room for `count` values on this rank and those of the others. Containers
+    /// often have 64 MB. Collective.
+    static bool fits(const RankGroup& group, std::size_t count, double free = free_shared_memory());
+
     /// `count` zeros on this rank. Created and destroyed collectively; the ranks must share a node
     /// (RankGroup::one_node).
     SharedValues(const RankGroup& group, std::size_t count);
+    /// Not collective where an exception unwinds: other ranks may be anywhere, and the program
+    /// ends.
     ~SharedValues();
     SharedValues(const SharedValues&) = delete;
     SharedValues& operator=(const SharedValues&) = delete;
@@ -28,6 +37,7 @@ class SharedValues {
 
  private:
     RankGroup group_;
+    int exceptions_;  // on their way when it was made
     MPI_Win window_ = MPI_WIN_NULL;
     std::vector<double*> values_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <stdexcept>
 #include <thread>
 
@@ -42,7 +43,8 @@ std::size_t whole_lines(std::size_t doubles) {
 
 }  // namespace
 
-PhaseWindow::PhaseWindow(MPI_Comm communicator) : communicator_(communicator) {
+PhaseWindow::PhaseWindow(MPI_Comm communicator)
+    : communicator_(communicator), exceptions_(std::uncaught_exceptions()) {
     PMPI_Comm_rank(communicator_, &rank_);
     PMPI_Comm_size(communicator_, &ranks_);
 }
@@ -50,7 +52,9 @@ PhaseWindow::PhaseWindow(MPI_Comm communicator) : communicator_(communicator) {
 PhaseWindow::~PhaseWindow() {
     int finalized = 0;
     PMPI_Finalized(&finalized);
-    if (!finalized) release();
+    // Both calls of release() wait for the other ranks, which may be anywhere if an exception
+    // unwinds.
+    if (!finalized && std::uncaught_exceptions() == exceptions_) release();
 }
 
 void PhaseWindow::release() {
@@ -75,7 +79,10 @@ void PhaseWindow::allocate(std::size_t doubles) {
     PMPI_Errhandler_free(&usual);
     PMPI_Info_free(&apart);
     if (made != MPI_SUCCESS)
-        throw std::runtime_error("MPI could not allocate shared memory for the grains ranks");
+        throw std::runtime_error(
+            "MPI could not allocate shared memory for the grains ranks: give /dev/shm more room "
+            "(of a container with --shm-size), or name another folder in "
+            "OMPI_MCA_osc_sm_backing_directory");
     // One epoch for the life of the window: ranks synchronise by their counts, not by MPI.
     PMPI_Win_lock_all(MPI_MODE_NOCHECK, window_);
     parts_.resize(static_cast<std::size_t>(ranks_));

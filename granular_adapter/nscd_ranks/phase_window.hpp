@@ -34,6 +34,7 @@ class PhaseWindow final : public PhaseTransport {
     }
 
     MPI_Comm communicator_;
+    int exceptions_;  ///< on their way when it was made
     int rank_ = 0, ranks_ = 1;
     MPI_Win window_ = MPI_WIN_NULL;
     std::size_t capacity_ = 0;              ///< doubles of each rank

@@ -105,5 +105,32 @@ TEST(MpiPencils, TransposeThereAndBackIsExact) {
     }
 }
 
+/// The room that is missing on one rank alone is missing for all.
+TEST(SharedValues, FitIfTheLeastFreeSpaceHoldsThoseOfAllRanks) {
+    const RankGroup group(MPI_COMM_WORLD);
+    const double bytes = 8e6 * group.size();
+    EXPECT_TRUE(SharedValues::fits(group, 1000000, 2.0 * bytes));
+    EXPECT_FALSE(SharedValues::fits(group, 1000000, bytes));
+    const bool last = group.rank() + 1 == group.size();
+    EXPECT_FALSE(SharedValues::fits(group, 1000000, last ? 1e6 : 1e12));
+    EXPECT_GT(free_shared_memory(), 0.0);
+}
+
+/// A rank that fails tells so, whatever the others wait for: it does not wait for them to free the
+/// memory.
+TEST(SharedValues, ARankThatFailsDoesNotWaitForTheOthers) {
+    const RankGroup group(MPI_COMM_WORLD);
+    int failed = 0;
+    try {
+        const SharedValues values(group, 10);
+        if (group.rank() > 0) MPI_Bcast(&failed, 1, MPI_INT, 0, group.comm());
+        throw std::runtime_error("the other ranks hear of it");
+    } catch (const std::runtime_error&) {
+        failed = 1;
+        if (group.rank() == 0) MPI_Bcast(&failed, 1, MPI_INT, 0, group.comm());
+    }
+    EXPECT_EQ(failed, 1);
+}
+
 }  // namespace
 }  // namespace turbidite

@@ -16,9 +16,6 @@ constexpr double on_a_plate = 1e-9;
 // rounding never leaves none.
 constexpr double leads_nearer = 1e-9;
 
-// Cosine of the sharpest kink that counts as a surface that goes on below a polygon: 30 degrees.
-constexpr double sharpest_kink = 0.866;
-
 bool is_plate(const Wall& wall) {
     return wall.form == WallForm::flat && has_ends(wall);
 }
@@ -39,8 +36,7 @@ void add_onward(const Wall& wall, const Vec3& place, double tolerance, std::vect
 
 PlateJoints::PlateJoints(const std::vector<Wall>& walls) {
     if (std::count_if(walls.begin(), walls.end(), is_plate) < 2) return;
-    std::vector<std::array<End, 2>> ends(walls.size());
-    bool any = false;
+    onward_.resize(walls.size());
     for (std::size_t i = 0; i < walls.size(); ++i)
         for (std::size_t j = 0; j < walls.size(); ++j) {
             const Wall &own = walls[i], &other = walls[j];
@@ -50,32 +46,19 @@ PlateJoints::PlateJoints(const std::vector<Wall>& walls) {
                 own.half_thickness > other.half_thickness + tolerance)
                 continue;
             for (const std::size_t end : {0, 1}) {
-                End& here = ends[i][end];
-                here.outward = (end == 0 ? -1.0 : 1.0) * along(own);
-                const Vec3 place = own.point + own.half_length * here.outward;
+                const double at = end == 0 ? -own.half_length : own.half_length;
+                const Vec3 place = own.point + at * along(own);
                 if (is_on(other, place, tolerance))
-                    add_onward(other, place, tolerance, here.onward);
-                any = any || !here.onward.empty();
+                    add_onward(other, place, tolerance, onward_[i][end]);
             }
         }
-    if (any) ends_ = std::move(ends);
-}
-
-const PlateJoints::End* PlateJoints::find(std::int32_t wall, std::size_t end) const {
-    return ends_.empty() ? nullptr : &ends_[static_cast<std::size_t>(wall)][end];
 }
 
 bool PlateJoints::is_nearest(std::int32_t wall, std::size_t end, const Vec3& normal) const {
-    const End* here = find(wall, end);
-    return !here || std::none_of(here->onward.begin(), here->onward.end(),
-                                 [&](const Vec3& d) { return dot(normal, d) > leads_nearer; });
-}
-
-bool PlateJoints::may_hold(std::int32_t wall, std::size_t end, const Vec3& normal) const {
-    const End* here = find(wall, end);
-    return !here || std::none_of(here->onward.begin(), here->onward.end(), [&](const Vec3& d) {
-        return dot(here->outward, d) > sharpest_kink && dot(normal, d) > leads_nearer;
-    });
+    if (onward_.empty()) return true;
+    const std::vector<Vec3>& onward = onward_[static_cast<std::size_t>(wall)][end];
+    return std::none_of(onward.begin(), onward.end(),
+                        [&](const Vec3& d) { return dot(normal, d) > leads_nearer; });
 }
 
 }  // namespace turbidite::nscd

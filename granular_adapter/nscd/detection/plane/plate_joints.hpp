@@ -24,23 +24,13 @@ class PlateJoints {
     /// Of all segments, wherever they are now.
     explicit PlateJoints(const std::vector<Wall>& walls);
 
-    /// Whether a disc may touch an end of a plate, from which the unit normal leads to it. `end`: 0
+    /// Whether a body may touch an end of a plate, from which the unit normal leads to it. `end`: 0
     /// for that at -half_length along e_z x n, 1 for the other.
     bool is_nearest(std::int32_t wall, std::size_t end, const Vec3& normal) const;
 
-    /// The same for a polygon, whose own side has the normal, or a line between two corners. Where
-    /// plates make a sharper kink a polygon may lie with sides on both, and needs the point.
-    bool may_hold(std::int32_t wall, std::size_t end, const Vec3& normal) const;
-
  private:
-    /// Directions of other plates from an end, and its own beyond the end; unit.
-    struct End {
-        Vec3 outward{};
-        std::vector<Vec3> onward;
-    };
-    const End* find(std::int32_t wall, std::size_t end) const;
-
-    std::vector<std::array<End, 2>> ends_;  ///< by wall; empty if no plates meet
+    /// By wall and end, the directions of other plates from there, unit; empty if no plates meet.
+    std::vector<std::array<std::vector<Vec3>, 2>> onward_;
 };
 
 }  // namespace turbidite::nscd

@@ -87,7 +87,7 @@ bool leads_on(const WallView& view, const ManifoldPoint& p) {
     // On the plate, along it from its middle.
     const double at = dot(cross({0, 0, 1}, view.wall.normal), middle - 0.5 * p.gap * normal);
     const bool inside = std::abs(at) < view.wall.half_length * (1.0 - end_share);
-    return !inside && !view.placed->plates.may_hold(view.wall_index, at > 0.0, normal);
+    return !inside && !view.placed->plates.is_nearest(view.wall_index, at > 0.0, normal);
 }
 
 void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
