@@ -19,6 +19,7 @@ import playing
 import quantities
 import records
 import run_data
+import runs_there
 
 
 class Gallery:
@@ -63,10 +64,16 @@ def list_all(gallery):
     print(f'{"case or study":<30}{"recorded":<46}{"processor":>10}{"memory":>9}  short form')
     for name, entry in gallery.entries.items():
         form = entry.forms['full']
-        spent = form.recorded and (f'{form.recorded["processor"]:.0f} s', f'{form.recorded["memory"]:.0f} MB')
         quick = records.told(gallery.configs, entry.forms['quick'].recorded) if 'quick' in entry.forms else '-'
-        seconds, memory = spent or ('', '')
+        seconds, memory = spent_on(form.recorded)
         print(f'{name:<30}{records.told(gallery.configs, form.recorded):<46}{seconds:>10}{memory:>9}  {quick}')
+
+
+def spent_on(recorded):
+    """Empty for what was not recorded, or played in several parts."""
+    if not recorded or 'processor' not in recorded:
+        return '', ''
+    return f'{recorded["processor"]:.0f} s', f'{recorded["memory"]:.0f} MB'
 
 
 def as_json(gallery):
@@ -110,26 +117,63 @@ def play(gallery, name):
     form, options = gallery.form_of(name), gallery.options
     folder = gallery.folder(name)
     played = records.load_played(folder) if options.judge else play_now(gallery, name, form, folder)
-    if played is None:
+    if played is None or played.code is None:
         raise entries.Wrong(f'--judge compares what was played before, and no run of the gallery ended in {folder}.')
     if played.code != 0:
         print(f'{name}: it did not end as it should: exit code {played.code}', file=sys.stderr)
         return played.code
     failed = judge(form, folder)
-    print(f'{name}: {len(form.expected) - failed} of {len(form.expected)} numbers hold; '
-          f'{played.processor:.0f} s of processor time, {played.memory:.0f} MB in its largest program')
+    print(f'{name}: {len(form.expected) - failed} of {len(form.expected)} numbers hold; {told_spent(played)}')
     if options.record and not failed:
+        require_of_its_commit(form, folder, played.source)
         record(gallery, name, played)
     return 1 if failed else 0
 
 
+def told_spent(played):
+    if played.processor is None:
+        return 'played in several parts, whose time is not known'
+    return f'{played.processor:.0f} s of processor time, {played.memory:.0f} MB in its largest program'
+
+
 def play_now(gallery, name, form, folder):
-    line = playing.command(gallery.options.program, gallery.file(name), gallery.is_study(name), form, folder)
-    print(playing.shown(line), flush=True)
     # Taken first: by the end of the run there may be another commit.
-    played = playing.play(line, records.source(gallery.configs, gallery.options.expected, gallery.options.program))
+    source = records.source(gallery.configs, gallery.options.expected, gallery.options.program)
+    is_study = gallery.is_study(name)
+    continued = is_study and begin_study(gallery, folder, source)
+    line = playing.command(gallery.options.program, gallery.file(name), is_study, form, folder)
+    print(playing.shown(line), flush=True)
+    played = playing.play(line, source)
+    if continued:
+        played.processor = played.memory = None
     records.save_played(folder, played)
     return played
+
+
+def begin_study(gallery, folder, source):
+    """A study goes on with the runs that are there. Those that this program has not played, as it is now, are set aside.
+    Whether others are left."""
+    before = records.load_played(folder)
+    runs = runs_there.runs_of_study(folder)
+    if source.changed or (before and before.source.changed):
+        runs_there.set_aside(runs, 'not everything is committed, and they may be of other sources')
+        runs = []
+    own = records.versions_of(gallery.options.program)
+    runs_there.set_aside([run for run in runs if run.versions() != own],
+                         f'another version or commit than {" ".join(own).strip() or "this"} has played them')
+    folder.mkdir(parents=True, exist_ok=True)
+    # For a call that continues this one: what it began with.
+    records.save_played(folder, records.Played(source, None, None, None))
+    return any(run.versions() == own for run in runs)
+
+
+def require_of_its_commit(form, folder, source):
+    """Somebody may have played in the folder since the gallery did, or during it."""
+    for run in sorted({one.run for one in form.expected}):
+        _, commit = runs_there.run_there(folder / run).versions()
+        if not commit or not records.same_commit(commit, source.commit):
+            raise entries.Wrong(f'--record names the commit that was played, {source.commit}, and {folder / run} is of '
+                                f'{commit or "an unknown one"}. Play it again without --judge.')
 
 
 def record(gallery, name, played):
@@ -144,6 +188,9 @@ def require_commit(source):
     if source.commit is None:
         raise entries.Wrong('--record names the commit that was played: it needs a checkout with git, or an installed '
                             'program that says its commit (--version).')
+    if source.checkout:
+        raise entries.Wrong(f'--record names the commit that was played: the program is of {source.commit}, and the cases '
+                            f'are of {source.checkout}. Build the program anew.')
     if source.changed:
         raise entries.Wrong(f'--record names the commit that was played, and {", ".join(source.changed[:3])} '
                             'is not committed.')

@@ -18,18 +18,26 @@ class Source:
     commit: str    # None: neither a checkout nor built from one
     changed: list  # files that differ from the commit
     date: str
+    checkout: str = None  # where the cases are, if that is another commit than the program's
 
 
 @dataclass
 class Played:
     source: Source
-    code: int          # exit code
-    processor: float   # s, of all programs of the job together
-    memory: float      # MB, of the largest of them
+    code: int          # exit code; None: it has begun
+    processor: float   # s, of all programs of the job together; None where earlier or other calls played a part
+    memory: float      # MB, of the largest of them; None as above
 
 
 def source(configs, expected, program):
-    return Source(commit(configs) or commit_of(program), changed(configs, Path(expected).name), datetime.date.today().isoformat())
+    here, (_, built) = commit(configs), versions_of(program)
+    elsewhere = here if here and built and not same_commit(here, built) else None
+    return Source(built or here, changed(configs, Path(expected).name), datetime.date.today().isoformat(), elsewhere)
+
+
+def same_commit(one, other):
+    """Of two abbreviations."""
+    return one.startswith(other) or other.startswith(one)
 
 
 def save_played(folder, played):
@@ -38,7 +46,7 @@ def save_played(folder, played):
 
 
 def load_played(folder):
-    """None where the gallery has not played to an end."""
+    """None where the gallery has played nothing."""
     file = folder / PLAYED
     if not file.is_file():
         return None
@@ -59,14 +67,14 @@ def commit(folder):
     return git(folder, 'rev-parse', '--short=10', 'HEAD')
 
 
-def commit_of(program):
-    """What an installed program was built from, by its own words."""
+def versions_of(program):
+    """Version and commit of what was built, by its own words; empty where it does not say."""
     try:
         told = subprocess.run([str(program), '--version'], capture_output=True, text=True).stdout
     except FileNotFoundError:
-        return None
-    found = re.search(r'\(commit (\w+)\)', told)
-    return found and found[1]
+        return '', ''
+    found = re.match(r'turbidite (\S+)(?: \(commit (\w+)\))?', told)
+    return (found[1], found[2] or '') if found else ('', '')
 
 
 def changed(folder, expected):
@@ -93,8 +101,8 @@ def told(folder, recorded):
 
 
 def line(played):
-    return (f'    recorded: {{commit: "{played.source.commit}", date: {played.source.date}, '
-            f'processor: {played.processor:.0f}, memory: {played.memory:.0f}}}')
+    spent = '' if played.processor is None else f', processor: {played.processor:.0f}, memory: {played.memory:.0f}'
+    return f'    recorded: {{commit: "{played.source.commit}", date: {played.source.date}{spent}}}'
 
 
 def with_record(text, name, form, played):

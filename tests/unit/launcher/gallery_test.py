@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The gallery on made-up runs: what is measured, what holds, what the file of expected numbers may say, and records."""
 import contextlib
+import datetime
+import fcntl
 import io
 import json
 import shutil
@@ -40,12 +42,21 @@ TREE = {'falling': {'full': {'expected': {'end_height': {'is': 2.9, 'within': 0.
                     'quick': {'set': {'time.end': 1.0, 'domain.size': [4.0, 6.5], 'grains.shape': 'disc'},
                               'expected': {'end_height': {'below': 3.0}}}},
         'other': {'full': None}}
-# In the place of the program: copies the made-up run to --out.
+# In the place of the program: copies the made-up run to --out, or those of a study that are not there.
 PROGRAM = """#!/usr/bin/python3
-import shutil, sys
-out = sys.argv[sys.argv.index('--out') + 1]
-shutil.rmtree(out, True)
-shutil.copytree({made_up!r}, out)
+import json, pathlib, shutil, sys
+version = pathlib.Path({made_up!r}).with_name('version').read_text().split()
+if sys.argv[1] == '--version':
+    sys.exit(print('turbidite', version[0], f'(commit {{version[1]}})' if version[1:] else ''))
+made_up, out = pathlib.Path({made_up!r}), pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
+for folder in [file.parent for file in made_up.glob('*/*/run.json')] if sys.argv[1] == 'study' else [made_up]:
+    to = out / folder.relative_to(made_up)
+    if sys.argv[1] != 'study' or not (to / 'run.json').exists():
+        shutil.rmtree(to, True)
+        shutil.copytree(folder, to)
+        record = json.loads((to / 'run.json').read_text())
+        record['versions'] = dict(zip(('turbidite', 'commit'), [*version, '']))
+        (to / 'run.json').write_text(json.dumps(record))
 sys.exit({code})
 """
 
@@ -129,8 +140,17 @@ class Played(RunFolderTest):
         self.write_all()
         self.write('made-up/case.yaml', (self.folder / 'case.yaml').read_text())
         self.write('made-up/history.csv', (self.folder / 'history.csv').read_text())
+        self.write('made-up/run.json', (self.folder / 'run.json').read_text())
+        self.write('version', '0.1.0')
         self.write('program', PROGRAM.format(made_up=str(self.folder / 'made-up'), code=code))
         (self.folder / 'program').chmod(0o755)
+
+    def study_of(self, *runs):
+        """The made-up program plays them."""
+        self.write('configs/sweep.yaml', 'parts:\n  column:\n    case: falling.yaml\n')
+        for run in runs:
+            for file in ('case.yaml', 'history.csv', 'run.json'):
+                self.write(f'made-up/column/{run}/{file}', (self.folder / file).read_text())
 
     def act(self, *words, tree=None):
         """(exit code, what was printed)"""
@@ -178,9 +198,7 @@ class Gallery(Played):
         self.assertEqual(self.act('--quick', 'other')[0], 2)
 
     def test_a_study_is_played_and_its_runs_compared(self):
-        self.write('configs/sweep.yaml', 'parts:\n  column:\n    case: falling.yaml\n')
-        for file in ('case.yaml', 'history.csv'):
-            self.write(f'made-up/column/seed-1/{file}', (self.folder / file).read_text())
+        self.study_of('seed-1')
         height = {'end_height': {'is': 2.9, 'within': 0.1}}
         tree = {'sweep': {'full': {'expected': {'column/seed-1': height, 'column/seed-2': height}}}}
         code, told = self.act('sweep', tree=tree)
@@ -220,6 +238,11 @@ class Records(Played):
         super().setUp()
         self.git('init')
         self.commit()
+        self.build()
+
+    def build(self):
+        """The program says that it is of the commit that is checked out."""
+        self.write('version', f'0.1.0 {records.commit(self.folder)}')
 
     def test_a_record_is_one_line_of_the_file(self):
         code, told = self.act('--record', 'falling')
@@ -285,6 +308,20 @@ class Records(Played):
         self.assertEqual(code, 2)
         self.assertIn('configs/falling.yaml is not committed', told)
 
+    def test_a_program_of_another_commit_is_not_recorded(self):
+        self.commit('--allow-empty')
+        code, told = self.act('--record', 'falling')
+        self.assertEqual(code, 2)
+        self.assertIn('Build the program anew', told)
+
+    def test_runs_of_another_commit_are_not_recorded_as_of_this_one(self):
+        self.act('falling')
+        record = json.loads((self.folder / 'out/falling/run.json').read_text())
+        self.write('out/falling/run.json', json.dumps({**record, 'versions': {'turbidite': '0.1.0', 'commit': '0123456789'}}))
+        code, told = self.act('--judge', '--record', 'falling')
+        self.assertEqual(code, 2)
+        self.assertIn('is of 0123456789', told)
+
     def test_commits_of_elsewhere_are_told(self):
         recorded = {'commit': '0123456789', 'date': '2026-01-02', 'processor': 3, 'memory': 4}
         tree = {'falling': {'full': {**TREE['falling']['full'], 'recorded': recorded}}}
@@ -299,13 +336,70 @@ class Records(Played):
 
 class Installed(Played):
     def test_the_program_says_its_commit(self):
-        self.assertEqual(records.commit_of(self.folder / 'program'), None)
-        program = (self.folder / 'program').read_text()
-        self.write('program', program.replace('import shutil, sys\n', 'import shutil, sys\nif sys.argv[1] == "--version":\n'
-                                              '    sys.exit(print("turbidite 0.1.0 (commit 0123456789)"))\n'))
+        self.assertEqual(records.versions_of(self.folder / 'program'), ('0.1.0', ''))
+        self.assertEqual(records.versions_of('/bin/true'), ('', ''))
+        self.write('version', '0.1.0 0123456789')
         code, told = self.act('--record', 'falling')
         self.assertEqual(code, 0, told)
         self.assertIn('commit: "0123456789"', (self.folder / 'configs/expected.yaml').read_text())
+
+
+class Studies(Played):
+    """What is there of a study when the gallery plays it."""
+    height = {'end_height': {'is': 2.9, 'within': 0.1}}
+    tree = {'sweep': {'full': {'expected': {'column/seed-1': height, 'column/seed-2': height}}}}
+
+    def setUp(self):
+        super().setUp()
+        self.study_of('seed-1', 'seed-2')
+        self.write('version', '0.1.0 0123456789')
+
+    def act(self, *words, tree=None):
+        return super().act(*words, tree=tree or self.tree)
+
+    def record_of(self, run):
+        return json.loads((self.folder / f'out/sweep/column/{run}/run.json').read_text())
+
+    def change(self, run, **values):
+        self.write(f'out/sweep/column/{run}/run.json', json.dumps({**self.record_of(run), **values}))
+
+    def recorded(self):
+        self.write('configs/expected.yaml', 'sweep:\n  full:\n')
+        self.assertEqual(self.act('--record', 'sweep')[0], 0)
+        return (self.folder / 'configs/expected.yaml').read_text().splitlines()[-1]
+
+    def test_runs_of_another_commit_are_played_anew(self):
+        self.act('sweep')
+        self.change('seed-1', versions={'turbidite': '0.1.0', 'commit': '9876543210'})
+        code, told = self.act('sweep')
+        self.assertEqual(code, 0, told)
+        self.assertIn('1 run of before, now seed-1-old-1', told)
+        self.assertEqual(self.record_of('seed-1')['versions']['commit'], '0123456789')
+        self.assertEqual(self.record_of('seed-1-old-1')['versions']['commit'], '9876543210')
+        self.assertFalse((self.folder / 'out/sweep/column/seed-2-old-1').exists())
+        self.assertNotIn('of before', self.act('sweep')[1])     # those that were set aside stay
+
+    def test_runs_of_sources_that_were_not_committed_are_played_anew(self):
+        with mock.patch.object(records, 'changed', return_value=['coupler/hub.cpp']):
+            self.act('sweep')
+            self.assertIn('2 runs of before', self.act('sweep')[1])
+        self.assertIn('2 runs of before', self.act('sweep')[1])
+        self.assertNotIn('of before', self.act('sweep')[1])
+
+    def test_the_time_of_a_part_is_not_recorded_for_the_whole(self):
+        self.assertIn('processor: ', self.recorded())
+        shutil.rmtree(self.folder / 'out/sweep/column/seed-2')
+        self.assertEqual(self.recorded(), f'    recorded: {{commit: "0123456789", date: {datetime.date.today()}}}')
+        self.assertEqual(self.act(tree={'sweep': {'full': {'recorded': {'commit': '0123456789', 'date': '2026-01-02'}}}})[0], 0)
+
+    def test_a_run_that_is_being_played_is_not_set_aside(self):
+        self.act('sweep')
+        self.change('seed-1', versions={'turbidite': '0.0.9'})
+        with open(self.folder / 'out/sweep/column/seed-1/lock', 'wb') as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            code, told = self.act('sweep')
+        self.assertEqual(code, 2)
+        self.assertIn('seed-1 is being played', told)
 
 
 class Playing(unittest.TestCase):
