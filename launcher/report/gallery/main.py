@@ -36,8 +36,8 @@ class Gallery:
         return path
 
     def folder(self, name):
-        """Of the run, or of the study's runs."""
-        return Path(self.options.out) / (name + ('-quick' if self.form == 'quick' else ''))
+        """Of the run, or of the study's runs. None lies in that of a study: validation/bead is a case, validation a study."""
+        return Path(self.options.out) / (name.replace('/', '-') + ('-quick' if self.form == 'quick' else ''))
 
     def is_study(self, name):
         return re.search(r'^(parts|case):', self.file(name).read_text(), re.MULTILINE) is not None

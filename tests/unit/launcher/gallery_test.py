@@ -207,6 +207,16 @@ class Gallery(Played):
         self.assertIn('holds   column/seed-1: end_height = 2.9 D', told)
         self.assertIn('FAILS   column/seed-2: end_height = cannot be told', told)
 
+    def test_the_folder_of_a_case_is_not_that_of_a_study(self):
+        self.study_of('seed-1')
+        self.write('configs/sweep/column.yaml', 'time:\n  step: 0.1\n')
+        holds = {'end_height': {'is': 2.9, 'within': 0.1}}
+        tree = {'sweep': {'full': {'expected': {'column/seed-1': holds}}}, 'sweep/column': {'full': {'expected': holds}}}
+        for _ in range(2):
+            code, told = self.act('sweep', 'sweep/column', tree=tree)
+            self.assertEqual(code, 0, told)
+        self.assertEqual(sorted(folder.name for folder in (self.folder / 'out').iterdir()), ['sweep', 'sweep-column'])
+
     def test_what_is_refused(self):
         for words, text in ((['faling'], 'Did you mean falling'), (['other'], 'no expected numbers so far')):
             code, told = self.act(*words)
