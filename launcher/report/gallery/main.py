@@ -122,12 +122,26 @@ def play(gallery, name):
     if played.code != 0:
         print(f'{name}: it did not end as it should: exit code {played.code}', file=sys.stderr)
         return played.code
+    require_done(form, folder)
     failed = judge(form, folder)
     print(f'{name}: {len(form.expected) - failed} of {len(form.expected)} numbers hold; {told_spent(played)}')
     if options.record and not failed:
         require_of_its_commit(form, folder, played.source)
         record(gallery, name, played)
     return 1 if failed else 0
+
+
+def require_done(form, folder):
+    """A study ends with 0 while another call plays the rest of it."""
+    for run in judged(form, folder):
+        state = 'being played' if run.is_held() else run.record.get('status') or 'not there'
+        if state != 'done':
+            raise entries.Wrong(f'{run.folder} is not done, and cannot be judged: it is {state}. --judge compares what is '
+                                'there once it is.')
+
+
+def judged(form, folder):
+    return [runs_there.run_there(folder / run) for run in sorted({one.run for one in form.expected})]
 
 
 def told_spent(played):
@@ -169,10 +183,10 @@ def begin_study(gallery, folder, source):
 
 def require_of_its_commit(form, folder, source):
     """Somebody may have played in the folder since the gallery did, or during it."""
-    for run in sorted({one.run for one in form.expected}):
-        _, commit = runs_there.run_there(folder / run).versions()
+    for run in judged(form, folder):
+        _, commit = run.versions()
         if not commit or not records.same_commit(commit, source.commit):
-            raise entries.Wrong(f'--record names the commit that was played, {source.commit}, and {folder / run} is of '
+            raise entries.Wrong(f'--record names the commit that was played, {source.commit}, and {run.folder} is of '
                                 f'{commit or "an unknown one"}. Play it again without --judge.')
 
 

@@ -198,14 +198,14 @@ class Gallery(Played):
         self.assertEqual(self.act('--quick', 'other')[0], 2)
 
     def test_a_study_is_played_and_its_runs_compared(self):
-        self.study_of('seed-1')
-        height = {'end_height': {'is': 2.9, 'within': 0.1}}
-        tree = {'sweep': {'full': {'expected': {'column/seed-1': height, 'column/seed-2': height}}}}
+        self.study_of('seed-1', 'seed-2')
+        tree = {'sweep': {'full': {'expected': {'column/seed-1': {'end_height': {'is': 2.9, 'within': 0.1}},
+                                                'column/seed-2': {'end_height': {'is': 3.9, 'within': 0.1}}}}}}
         code, told = self.act('sweep', tree=tree)
         self.assertEqual(code, 1)
         self.assertRegex(told, r'turbidite study \S+/configs/sweep.yaml --out \S+/out/sweep\n')
         self.assertIn('holds   column/seed-1: end_height = 2.9 D', told)
-        self.assertIn('FAILS   column/seed-2: end_height = cannot be told', told)
+        self.assertIn('FAILS   column/seed-2: end_height = 2.9 D', told)
 
     def test_the_folder_of_a_case_is_not_that_of_a_study(self):
         self.study_of('seed-1')
@@ -401,6 +401,22 @@ class Studies(Played):
         shutil.rmtree(self.folder / 'out/sweep/column/seed-2')
         self.assertEqual(self.recorded(), f'    recorded: {{commit: "0123456789", date: {datetime.date.today()}}}')
         self.assertEqual(self.act(tree={'sweep': {'full': {'recorded': {'commit': '0123456789', 'date': '2026-01-02'}}}})[0], 0)
+
+    def test_runs_that_others_play_are_not_judged(self):
+        self.act('sweep')
+        self.write('out/sweep/column/seed-2/history.csv', 'step,time\n0,0\n')
+        with open(self.folder / 'out/sweep/column/seed-2/lock', 'wb') as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            code, told = self.act('sweep')
+        self.assertEqual(code, 2)
+        self.assertIn('column/seed-2 is not done, and cannot be judged: it is being played', told)
+        self.assertNotIn('FAILS', told)
+
+    def test_runs_that_are_not_there_are_not_judged(self):
+        shutil.rmtree(self.folder / 'made-up/column/seed-2')
+        code, told = self.act('sweep')
+        self.assertEqual(code, 2)
+        self.assertIn('it is not there', told)
 
     def test_a_run_that_is_being_played_is_not_set_aside(self):
         self.act('sweep')
