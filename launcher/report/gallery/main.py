@@ -10,6 +10,7 @@ import json
 import re
 import signal
 import sys
+import time
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).resolve().parents[1]))
@@ -155,10 +156,13 @@ def play_now(gallery, name, form, folder):
     source = records.source(gallery.configs, gallery.options.expected, gallery.options.program)
     is_study = gallery.is_study(name)
     continued = is_study and begin_study(gallery, folder, source)
+    if not is_study:
+        records.forget_played(folder)
     line = playing.command(gallery.options.program, gallery.file(name), is_study, form, folder)
     print(playing.shown(line), flush=True)
+    begun = records.load_played(folder)
     played = playing.play(line, source)
-    if continued:
+    if continued or begun != records.load_played(folder):  # another call has begun, too
         played.processor = played.memory = None
     records.save_played(folder, played)
     return played
@@ -177,7 +181,7 @@ def begin_study(gallery, folder, source):
                          f'another version or commit than {" ".join(own).strip() or "this"} has played them')
     folder.mkdir(parents=True, exist_ok=True)
     # For a call that continues this one: what it began with.
-    records.save_played(folder, records.Played(source, None, None, None))
+    records.save_played(folder, records.Played(source, None, None, None, time.time_ns()))
     return any(run.versions() == own for run in runs)
 
 

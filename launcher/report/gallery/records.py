@@ -27,6 +27,7 @@ class Played:
     code: int          # exit code; None: it has begun
     processor: float   # s, of all programs of the job together; None where earlier or other calls played a part
     memory: float      # MB, of the largest of them; None as above
+    begun: int = None  # ns, of a study: another call that begins writes another one
 
 
 def source(configs, expected, program):
@@ -43,6 +44,11 @@ def same_commit(one, other):
 def save_played(folder, played):
     if folder.is_dir():  # else it was refused before it began
         (folder / PLAYED).write_text(json.dumps(asdict(played)) + '\n')
+
+
+def forget_played(folder):
+    """Before a run: it may be killed, and what an earlier one took is not what it took."""
+    (folder / PLAYED).unlink(missing_ok=True)
 
 
 def load_played(folder):

@@ -207,6 +207,21 @@ class Gallery(Played):
         self.assertIn('holds   column/seed-1: end_height = 2.9 D', told)
         self.assertIn('FAILS   column/seed-2: end_height = 2.9 D', told)
 
+    def test_a_run_that_was_killed_is_not_judged(self):
+        self.act('falling')
+        self.write('out/falling/run.json', json.dumps({'status': 'prepared'}))
+        code, told = self.act('falling', '--judge')
+        self.assertEqual(code, 2)
+        self.assertIn('out/falling is not done, and cannot be judged: it is prepared', told)
+
+    def test_a_gallery_that_was_killed_leaves_no_time_of_an_earlier_run(self):
+        self.act('falling')
+        with mock.patch.object(playing, 'play', side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+            self.act('falling')
+        code, told = self.act('falling', '--judge')
+        self.assertEqual(code, 2)
+        self.assertIn('no run of the gallery ended in', told)
+
     def test_the_folder_of_a_case_is_not_that_of_a_study(self):
         self.study_of('seed-1')
         self.write('configs/sweep/column.yaml', 'time:\n  step: 0.1\n')
@@ -411,6 +426,13 @@ class Studies(Played):
         self.assertEqual(code, 2)
         self.assertIn('column/seed-2 is not done, and cannot be judged: it is being played', told)
         self.assertNotIn('FAILS', told)
+
+    def test_the_time_is_not_recorded_where_another_call_has_played_too(self):
+        def play(line, source):
+            records.save_played(self.folder / 'out/sweep', records.Played(source, None, None, None, 1))
+            return records.Played(source, subprocess.run(line).returncode, 1.0, 2.0)
+        with mock.patch.object(playing, 'play', play):
+            self.assertNotIn('processor', self.recorded())
 
     def test_runs_that_are_not_there_are_not_judged(self):
         shutil.rmtree(self.folder / 'made-up/column/seed-2')
