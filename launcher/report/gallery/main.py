@@ -122,7 +122,7 @@ def play(gallery, name):
         raise entries.Wrong(f'--judge compares what was played before, and no run of the gallery ended in {folder}.')
     if played.code != 0:
         print(f'{name}: it did not end as it should: exit code {played.code}', file=sys.stderr)
-        return played.code
+        return played.code if played.code > 0 else 128 - played.code  # negative: the signal that killed it
     require_done(form, folder)
     failed = judge(form, folder)
     print(f'{name}: {len(form.expected) - failed} of {len(form.expected)} numbers hold; {told_spent(played)}')
@@ -235,8 +235,22 @@ def act(options, tree):
         gallery.form_of(name)
     if options.record and not options.judge:
         require_commit(records.source(gallery.configs, options.expected, options.program))
-    codes = [play(gallery, name) for name in options.names]
-    return next((code for code in sorted(codes, reverse=True) if code), 0)
+    return play_all(gallery, options.names)
+
+
+def play_all(gallery, names):
+    """Until one is interrupted. The largest exit code."""
+    codes = [0]
+    for name in names:
+        codes.append(play(gallery, name))
+        if was_interrupted(codes[-1]):
+            break
+    return max(codes)
+
+
+def was_interrupted(code):
+    """By Ctrl-C or a signal (docs/running.md), or killed."""
+    return code >= 128
 
 
 def main(arguments):
@@ -245,6 +259,8 @@ def main(arguments):
     except entries.Wrong as wrong:
         print(f'turbidite gallery: {wrong}\nExit code 2.', file=sys.stderr)
         return 2
+    except KeyboardInterrupt:  # while nothing is played
+        return 130
 
 
 if __name__ == '__main__':

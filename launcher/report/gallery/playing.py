@@ -2,6 +2,7 @@
 """Plays a case or a study by the program, and measures what it took."""
 import os
 import shlex
+import signal
 import subprocess
 
 from records import Played
@@ -18,13 +19,16 @@ def shown(line):
 
 
 def play(line, source):
-    """Without a report, which would take part of the time. Ctrl-C reaches the program too, which then ends orderly."""
+    """Without a report, which would take part of the time. Ctrl-C reaches the program too, which then ends orderly; SIGTERM
+    is passed on."""
     process = subprocess.Popen(line, stdin=subprocess.DEVNULL, env={**os.environ, 'TURBIDITE_REPORT': 'off'})
+    before = signal.signal(signal.SIGTERM, lambda *_: process.send_signal(signal.SIGTERM))
     while True:
         try:
             _, status, used = os.wait4(process.pid, 0)
             break
         except KeyboardInterrupt:
             pass
+    signal.signal(signal.SIGTERM, before)
     process.returncode = os.waitstatus_to_exitcode(status)
     return Played(source, process.returncode, used.ru_utime + used.ru_stime, used.ru_maxrss / 1000.0)

@@ -5,6 +5,7 @@ import datetime
 import fcntl
 import io
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -190,6 +191,15 @@ class Gallery(Played):
         self.assertIn('exit code 6', told)
         self.assertNotIn('holds', told)
 
+    def test_nothing_is_played_after_an_interruption(self):
+        tree = {'falling': TREE['falling'], 'other': TREE['falling']}
+        self.assertEqual(self.act('falling', 'other', tree=tree)[0], 0)
+        for code, told_code in ((130, 130), (143, 143), (-9, 137)):
+            with mock.patch.object(playing, 'play', return_value=records.Played(None, code, 1.0, 2.0)) as play, \
+                    mock.patch.object(records, 'save_played'):
+                self.assertEqual(self.act('falling', 'other', tree=tree)[0], told_code)
+            self.assertEqual(play.call_count, 1)
+
     def test_the_short_form(self):
         code, told = self.act('--quick', 'falling')
         self.assertEqual(code, 0)
@@ -216,8 +226,8 @@ class Gallery(Played):
 
     def test_a_gallery_that_was_killed_leaves_no_time_of_an_earlier_run(self):
         self.act('falling')
-        with mock.patch.object(playing, 'play', side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
-            self.act('falling')
+        with mock.patch.object(playing, 'play', side_effect=KeyboardInterrupt):
+            self.assertEqual(self.act('falling')[0], 130)
         code, told = self.act('falling', '--judge')
         self.assertEqual(code, 2)
         self.assertIn('no run of the gallery ended in', told)
@@ -451,6 +461,12 @@ class Studies(Played):
 
 
 class Playing(unittest.TestCase):
+    def test_a_request_to_end_is_passed_on(self):
+        """As a batch system sends it."""
+        begin = ('import os, signal, time\nsignal.signal(signal.SIGTERM, lambda *_: os._exit(143))\n'
+                 f'os.kill({os.getpid()}, signal.SIGTERM)\ntime.sleep(60)')
+        self.assertEqual(playing.play([sys.executable, '-c', begin], None).code, 143)
+
     def test_what_a_program_took_is_its_own(self):
         """A large one before does not count."""
         large = playing.play([sys.executable, '-c', 'x = bytearray(200_000_000)'], None)
