@@ -476,6 +476,13 @@ class Playing(unittest.TestCase):
         self.assertLess(small.memory, 100.0)
         self.assertGreater(small.processor, 0.02)
 
+    def test_the_memory_of_the_gallery_is_not_that_of_the_program(self):
+        self.assertIn('numpy', sys.modules)
+        self.assertLess(playing.play(['/bin/true'], None).memory, 15.0)
+
+    def test_a_program_that_is_not_there_has_failed(self):
+        self.assertEqual(playing.play(['/no/such/program'], None).code, 1)
+
 
 if __name__ == '__main__':
     unittest.main()
