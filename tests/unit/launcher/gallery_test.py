@@ -128,6 +128,13 @@ class Entries(unittest.TestCase):
         self.assertEqual(form.arguments(), ['--set', 'time.end=1', '--set', 'domain.size=[4, 6.5]', '--set', 'grains.shape=disc'])
 
 
+    def test_texts_are_read_as_they_were_written(self):
+        for text, typed in (('disc', 'disc'), ('my-code --all', 'my-code --all'), ('grains #2.csv', '"grains #2.csv"'),
+                            ('a: b', '"a: b"'), ('~', '"~"'), ('null', '"null"'), ('', '""'), (None, 'null'), (True, 'true'),
+                            (['a, b', 2.5], '["a, b", 2.5]')):
+            self.assertEqual(entries.as_yaml(text), typed)
+
+
 class Played(RunFolderTest):
     def setUp(self):
         super().setUp()

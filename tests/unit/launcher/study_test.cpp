@@ -94,6 +94,30 @@ set:
                   "grains.region"));
 }
 
+// As an override a text is read again, where " #" begins a comment and ": " a map.
+TEST_F(StudyTest, TextsInQuotesAreReadAsInACase) {
+    const char* const grains = "id,x,y,radius\n1,4,4,0.5\n";
+    for (const std::string name :
+         {"grains #2.csv", "a: b.csv", "~", "[1, 2]", "two \"words\".csv"}) {
+        scratch.write(name, grains);
+        const std::string file = "{adapter: standalone-nscd, file: '" + name + "'}";
+        const std::string rest =
+            "domain: {size: [8, 8]}\nfluid: {enabled: false}\ntime: {step: 0.01, end: 1}\n";
+        scratch.write("own.yaml", rest + "grains: " + file + "\n");
+        scratch.write("of.yaml", rest + "grains: {adapter: standalone-nscd}\n");
+        const std::string own = plan("{case: own.yaml}")[0].yaml;
+        EXPECT_EQ(plan("{case: of.yaml, set: {grains.file: '" + name + "'}}")[0].yaml, own);
+        const auto swept = plan("{case: of.yaml, sweep: {grains.file: ['" + name + "']}}");
+        EXPECT_EQ(swept[0].yaml, own);
+        EXPECT_EQ(swept[0].values[0].second, name);
+        const auto quick = plan_study(study("{case: of.yaml, quick: {grains.file: '" + name +
+                                            "'}, sweep: {grains.file: [none.csv]}}"),
+                                      {}, true);
+        EXPECT_EQ(quick[0].yaml, own);
+        EXPECT_EQ(quick[0].values[0].second, name);
+    }
+}
+
 TEST_F(StudyTest, HasPartsAndRunsWithoutASweep) {
     const auto runs = plan(R"(
 parts:
