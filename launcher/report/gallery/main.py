@@ -201,6 +201,18 @@ def record(gallery, name, played):
     print(f'{name}: recorded in {file}')
 
 
+def require_recordable(gallery):
+    """Before hours of playing."""
+    options = gallery.options
+    source = records.source(gallery.configs, options.expected, options.program)
+    if not options.judge:  # else that of the gallery's last run
+        require_commit(source)
+    records.require_writable(options.expected)
+    text = Path(options.expected).read_text()
+    for name in options.names:
+        records.with_record(text, name, gallery.form, records.Played(source, 0, None, None))
+
+
 def require_commit(source):
     """A record names the commit that was played."""
     if source.commit is None:
@@ -233,8 +245,8 @@ def act(options, tree):
         list_all(gallery)
     for name in options.names:
         gallery.form_of(name)
-    if options.record and not options.judge:
-        require_commit(records.source(gallery.configs, options.expected, options.program))
+    if options.record:
+        require_recordable(gallery)
     return play_all(gallery, options.names)
 
 

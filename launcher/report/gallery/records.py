@@ -8,6 +8,8 @@ import subprocess
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from entries import Wrong
+
 OLD = 100  # commits
 PLAYED = 'gallery.json'
 
@@ -113,10 +115,32 @@ def line(played):
 
 def with_record(text, name, form, played):
     """The document with the `recorded` line of a form replaced, or added as its last. Entries begin in the first column,
-    forms two further to the right, their keys four."""
+    forms two further to the right, their keys four; Wrong where they do not."""
     lines = text.splitlines()
-    keys = [text.split('#')[0].rstrip() for text in lines]  # comments may follow a key
-    begin = keys.index(f'  {form}:', keys.index(f'{name}:')) + 1
-    end = next((k for k in range(begin, len(lines)) if not lines[k].startswith('    ')), len(lines))
+    begin, end = lines_of(lines, 0, len(lines), f'{name}:', f'{name} in the first column')
+    begin, end = lines_of(lines, begin, end, f'  {form}:', f'`  {form}:`, two columns in, below {name}')
     kept = [text for text in lines[begin:end] if not text.startswith('    recorded:')]
     return '\n'.join([*lines[:begin], *kept, line(played), *lines[end:]]) + '\n'
+
+
+def lines_of(lines, begin, end, key, told):
+    """What stands below a key, further to the right; comments may follow the key."""
+    found = next((k for k in range(begin, end) if lines[k].split('#')[0].rstrip() == key), None)
+    if found is None:
+        raise Wrong(f'--record writes a line below {told}, and there is no such line in the file of expected numbers: '
+                    'write it so, with its keys in lines of their own.')
+    margin = ' ' * (len(key) - len(key.lstrip()) + 1)
+    says_nothing = [not text.split('#')[0].strip() for text in lines]
+    last = next((k for k in range(found + 1, end) if not lines[k].startswith(margin) and not says_nothing[k]), end)
+    while says_nothing[last - 1]:
+        last -= 1
+    return found + 1, last
+
+
+def require_writable(file):
+    """Found before something is played."""
+    try:
+        with open(file, 'r+b'):
+            pass
+    except OSError as error:
+        raise Wrong(f'--record writes into {file}: {error.strerror}. Give one of yours: --expected FILE.') from None

@@ -311,6 +311,25 @@ class Records(Played):
         self.assertEqual(code, 2)
         self.assertIn('configs/falling.yaml is not committed', told)
 
+    def test_what_cannot_be_recorded_is_refused_before_it_is_played(self):
+        def refused(*words):
+            with mock.patch.object(playing, 'play', side_effect=AssertionError):
+                code, told = self.act('--record', *words, 'falling')
+            self.assertEqual(code, 2, told)
+            return told
+        inline = EXPECTED.replace('  quick:\n    set: {time.end: 1}\n', '  quick: {set: {time.end: 1}}\n')
+        self.write('configs/expected.yaml', inline + '  quick:\n')     # that of another entry
+        self.assertIn('below `  quick:`, two columns in, below falling', refused('--quick'))
+        (self.folder / 'configs/expected.yaml').unlink()
+        (self.folder / 'configs/expected.yaml').mkdir()
+        self.assertIn('Is a directory', refused())
+
+    def test_empty_lines_and_comments_of_a_form(self):
+        played = records.Played(records.Source('abc', [], '2026-01-01'), 0, 1.0, 2.0)
+        text = 'a:\n  full:\n    set: {}\n\n# Why.\n    expected: {}\n    recorded: {}\n\n# Other.\nb:\n  full:\n'
+        self.assertEqual(records.with_record(text, 'a', 'full', played), text.replace(
+            '    recorded: {}', '    recorded: {commit: "abc", date: 2026-01-01, processor: 1, memory: 2}'))
+
     def test_old_records_are_told(self):
         recorded = {'commit': records.commit(self.folder), 'date': '2026-01-02', 'processor': 3, 'memory': 4}
         tree = {'falling': {'full': {**TREE['falling']['full'], 'recorded': recorded}}}
