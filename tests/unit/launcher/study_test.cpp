@@ -470,6 +470,14 @@ TEST_F(OtherVersion, PouredRunsAreKnownByTheirPlan) {
     EXPECT_EQ(state(), RunState::done);
     leave({poured, {"  rolling_friction: 0", "  rolling_friction: 0.125"}}, "of that version");
     EXPECT_EQ(state(), RunState::kept);
+    // Which pouring raises to limits.penetration.
+    leave({poured,
+           {"  rolling_friction: 0", "  rolling_friction: 0.125"},
+           {"  overlap: 0 ", "  overlap: 0.2 "}},
+          "of that version");
+    EXPECT_EQ(changes(), "contact.rolling_friction: 0.125, now 0 by default\n");
+    leave({poured, {"  overlap: 0 ", "  overlap: 0.1 "}}, "of that version");
+    EXPECT_SAYS(changes(), "grains.overlap: 0.1, now 0 by default");
     leave({poured, {"  friction: 0.3", "  friction: 0.4"}}, "of that version");
     EXPECT_EQ(state(), RunState::missing);
     leave({poured});
