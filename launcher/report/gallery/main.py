@@ -78,12 +78,12 @@ def spent_on(recorded):
 
 
 def as_json(gallery):
-    def told(form):
+    def of_form(form):
         bounds = [{'run': one.run, 'what': one.what, 'lowest': finite(one.lowest), 'highest': finite(one.highest)}
                   for one in form.expected]
         return {'set': form.overrides, 'expected': bounds, 'recorded': form.recorded,
                 'age': form.recorded and records.age(gallery.configs, form.recorded)}
-    return json.dumps({name: {'study': gallery.is_study(name), **{form: told(one) for form, one in entry.forms.items()}}
+    return json.dumps({name: {'study': gallery.is_study(name), **{form: of_form(one) for form, one in entry.forms.items()}}
                        for name, entry in gallery.entries.items()}, indent=2)
 
 
@@ -251,13 +251,21 @@ def act(options, tree):
 
 
 def play_all(gallery, names):
-    """Until one is interrupted. The largest exit code."""
+    """Until one is interrupted; one that cannot be played or judged does not keep the others from it. The largest exit code."""
     codes = [0]
     for name in names:
-        codes.append(play(gallery, name))
+        try:
+            codes.append(play(gallery, name))
+        except entries.Wrong as wrong:
+            codes.append(told(wrong))
         if was_interrupted(codes[-1]):
             break
     return max(codes)
+
+
+def told(wrong):
+    print(f'turbidite gallery: {wrong}\nExit code 2.', file=sys.stderr)
+    return 2
 
 
 def was_interrupted(code):
@@ -269,8 +277,7 @@ def main(arguments):
     try:
         return act(parsed(arguments), json.load(sys.stdin))
     except entries.Wrong as wrong:
-        print(f'turbidite gallery: {wrong}\nExit code 2.', file=sys.stderr)
-        return 2
+        return told(wrong)
     except KeyboardInterrupt:  # while nothing is played
         return 130
 

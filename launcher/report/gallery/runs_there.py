@@ -54,11 +54,10 @@ def set_aside(runs, why):
     if held:
         raise Wrong(f'{held[0]} is being played, and the gallery would have to play it anew: {why}. Wait for it, or '
                     'choose another --out.')
-    for run in runs:
-        run.folder.rename(first_free(run.folder))
+    names = [run.folder.rename(first_free(run.folder)).name for run in runs]
     if runs:
-        print(f'{len(runs)} {"run" if len(runs) == 1 else "runs"} of before, now {runs[0].folder.name}-old-1 and so on, '
-              f'to be played anew: {why}', flush=True)
+        print(f'{len(runs)} {"run" if len(runs) == 1 else "runs"} of before, now {names[0]}'
+              f'{" and so on" if names[1:] else ""}, to be played anew: {why}', flush=True)
 
 
 def first_free(folder):

@@ -463,6 +463,12 @@ class Studies(Played):
         self.assertIn('column/seed-2 is not done, and cannot be judged: it is being played', told)
         self.assertNotIn('FAILS', told)
 
+    def test_what_cannot_be_judged_does_not_keep_others_from_being_played(self):
+        shutil.rmtree(self.folder / 'made-up/column/seed-2')
+        code, told = self.act('sweep', 'falling', tree={**self.tree, **TREE})
+        self.assertEqual(code, 2)
+        self.assertIn('falling: 2 of 2 numbers hold', told)
+
     def test_the_time_is_not_recorded_where_another_call_has_played_too(self):
         def play(line, source):
             records.save_played(self.folder / 'out/sweep', records.Played(source, None, None, None, 1))
