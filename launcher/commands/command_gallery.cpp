@@ -94,7 +94,10 @@ CommandAction declare_gallery(CLI::App& app) {
     app.add_option("NAME", options->names,
                    "cases or studies to play; without any all are listed, with what is recorded");
     app.add_flag("--quick", options->quick, "their short forms, which have numbers of their own");
-    app.add_option("--out", options->out, "where the runs go: DIR/NAME, replaced when there")
+    app.add_option(
+           "--out", options->out,
+           "where the runs go: DIR/NAME; a case there is replaced, a study goes on with the "
+           "runs of the same commit")
         ->type_name("DIR")
         ->capture_default_str();
     app.add_flag("--record", options->record,

@@ -196,11 +196,13 @@ ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan, c
         chosen.reset();
         if (!prepared && result == ExitCode::done) result = ExitCode::participant_failed;
         if (!prepared || !*prepared) continue;
-        const JobOutcome outcome = play(**prepared, site.programs);
+        const auto outcome = unless_it_waits(*run, [&] { return play(**prepared, site.programs); });
+        const ExitCode code = outcome ? outcome->code : ExitCode::participant_failed;
         chosen = turns.lock();
         write_study_record(study, plan, out);
-        if (asked_to_stop(outcome.code)) return outcome.code;
-        if (result == ExitCode::done) result = outcome.code;
+        if (asked_to_stop(code)) return code;
+        if (result == ExitCode::done) result = code;
+        if (!outcome) continue;
         pace.take_in(run->part, std::chrono::duration<double>(Clock::now() - start).count());
     }
 }

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <utility>
 
 #include "coupler/protocol/failure.hpp"
 
@@ -53,12 +54,49 @@ class BlockedSignals {
     sigset_t old_;
 };
 
+/// Through which the child tells why it could not become the program. It is closed when it does.
+class StartFault {
+ public:
+    explicit StartFault(const std::string& program) : program_(program) {
+        if (pipe2(ends_, O_CLOEXEC) != 0) throw failure(errno);
+    }
+    ~StartFault() {
+        for (const int end : ends_)
+            if (end >= 0) close(end);
+    }
+    StartFault(const StartFault&) = delete;
+    StartFault& operator=(const StartFault&) = delete;
+
+    Failure failure(int error) const {
+        return Failure(
+            ExitCode::participant_failed,
+            program_ + " cannot be started: " + std::strerror(error) + "; is it installed?");
+    }
+
+    /// By the child.
+    void tell(int error) const {
+        if (write(ends_[1], &error, sizeof error) < 0) return;  // nobody is left to hear it
+    }
+
+    /// By the parent, once the child has ended. 0: it had become the program.
+    int told() {
+        close(std::exchange(ends_[1], -1));
+        int error = 0;
+        return read(ends_[0], &error, sizeof error) == sizeof error ? error : 0;
+    }
+
+ private:
+    std::string program_;
+    int ends_[2] = {-1, -1};
+};
+
 void redirect(int stream, const std::filesystem::path& file) {
     const int log = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     if (log >= 0) dup2(log, stream);
 }
 
-[[noreturn]] void become(const JobOrder& order, const sigset_t& mask, pid_t parent) {
+[[noreturn]] void become(const JobOrder& order, const sigset_t& mask, pid_t parent,
+                         const StartFault& fault) {
     // A session of its own, in which all processes of the job can be found again.
     setsid();
     prctl(PR_SET_PDEATHSIG, SIGTERM);  // a job must not outlive a killed `turbidite`
@@ -78,6 +116,7 @@ void redirect(int stream, const std::filesystem::path& file) {
         arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
     execvp(arguments[0], arguments.data());
+    fault.tell(errno);
     _exit(cannot_start);
 }
 
@@ -199,17 +238,14 @@ void hold_announcements() {
 
 JobEnd run_job(const JobOrder& order) {
     const BlockedSignals signals;
+    StartFault fault(order.arguments.at(0));
     const pid_t self = getpid();
     const pid_t child = fork();
-    if (child < 0)
-        throw Failure(ExitCode::participant_failed,
-                      "cannot start " + order.arguments.at(0) + ": " + std::strerror(errno));
-    if (child == 0) become(order, signals.old(), self);
+    if (child < 0) throw fault.failure(errno);
+    if (child == 0) become(order, signals.old(), self, fault);
     const JobEnd end = watch(child, order, signals);
-    // 127, as a shell says it: execvp has failed.
-    if (end.status == cannot_start && !end.killed)
-        throw Failure(ExitCode::participant_failed,
-                      order.arguments.at(0) + " cannot be started: is it installed?");
+    // Not by a status: a program of the job may end with any.
+    if (const int error = fault.told()) throw fault.failure(error);
     return end;
 }
 

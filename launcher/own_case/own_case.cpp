@@ -61,6 +61,18 @@ void require_free(const fs::path& file, const std::string& remedy) {
                       fmt::format("turbidite: {} exists already\n  {}", file.string(), remedy));
 }
 
+/// Or one of the two would be lost.
+void require_other_names(const fs::path& file, const std::vector<fs::path>& names,
+                         const std::string& shipped) {
+    for (const fs::path& name : names)
+        if (fs::absolute(file.parent_path() / name).lexically_normal() ==
+            fs::absolute(file).lexically_normal())
+            throw Failure(ExitCode::bad_input,
+                          fmt::format("turbidite: {} is the name of a file that {} needs beside "
+                                      "it\n  Choose another name. Nothing was written.",
+                                      name.string(), shipped));
+}
+
 /// Nothing to copy: the same file, as another case has brought it along.
 bool is_copied(const fs::path& shipped, const fs::path& file) {
     return fs::exists(file) && read_whole(file) == read_whole(shipped);
@@ -71,6 +83,7 @@ bool is_copied(const fs::path& shipped, const fs::path& file) {
 OwnCase write_own_case(const fs::path& shipped, const fs::path& file) {
     OwnCase own{file, {}};
     std::vector<fs::path> names = files_beside(shipped);
+    require_other_names(file, names, shipped.stem().string());
     std::erase_if(names, [&](const fs::path& name) {
         return is_copied(shipped.parent_path() / name, file.parent_path() / name);
     });

@@ -85,7 +85,10 @@ def name_of(group):
     names = [run.folder.resolve().name for run in group]
     if len(group) == 1:
         return names[0]
-    common = re.sub(r'[-_.]*(seeds?|s)?[-_.]*$', '', os.path.commonprefix(names))
+    common = os.path.commonprefix(names)
+    if any(name[len(common):][:1].isdigit() for name in names):  # 10 and 11 have a digit in common
+        common = common.rstrip('0123456789')
+    common = re.sub(r'((^|[-_.]+)(seeds?|s))?[-_.]*$', '', common)
     return common or f'{names[0]} and {len(names) - 1} more'
 
 

@@ -3,6 +3,7 @@
 
     site.py build SOURCES SITE        the site in the folder SITE, from the Markdown of the sources as it is
     site.py show SITE [PORT]          on this machine alone, until Ctrl-C
+    site.py fresh SOURCES SITE [PORT] both
 
 Building needs mkdocs and mkdocs-material (Debian). A page without a place in mkdocs.yml, a place without a page, and a link
 that leads nowhere are errors. With doxygen the site has the reference of the headers too (api/), and links to a header lead
@@ -21,7 +22,12 @@ CONFIGURATION = Path(__file__).resolve().parent / 'mkdocs.yml'
 REFERENCE = Path('launcher/site/api')
 API_PLACE = re.compile(r'^ +- API: .*\n', re.M)
 LINK = re.compile(r'\]\(([^)#\s:]+)(#[^)\s]*)?\)')
+PROGRAM_FAILED = 4  # exit code, docs/running.md
 PICTURES = ('.png', '.webp', '.svg')
+
+
+class NotWritable(Exception):
+    """The folder of the site."""
 
 
 def pages_of(sources):
@@ -96,7 +102,7 @@ def without_place(sources):
 
 
 def build(sources, site):
-    """Raises SystemExit with mkdocs' words."""
+    """Raises SystemExit with mkdocs' words, and NotWritable."""
     if lost := without_place(sources):
         sys.exit(f'{CONFIGURATION} has no place for {", ".join(lost)}')
     with tempfile.TemporaryDirectory() as work:
@@ -114,8 +120,36 @@ def build(sources, site):
         if done.returncode:
             said = [line for line in (done.stdout + done.stderr).splitlines() if not line.startswith('INFO')]
             sys.exit('\n'.join(said))
-        shutil.rmtree(site, ignore_errors=True)
-        shutil.move(work / 'site', site)
+        replace(site, work / 'site')
+
+
+def replace(site, built):
+    """Whole or not at all: copied beside it, and renamed. NotWritable where that is not allowed."""
+    try:
+        site.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=site.parent, prefix=f'.{site.name}-') as beside:
+            new, old = Path(beside) / 'new', Path(beside) / 'old'
+            shutil.copytree(built, new)
+            if site.exists():
+                site.rename(old)
+            new.rename(site)
+    except OSError as error:
+        raise NotWritable(f'{site} cannot be written: {error}') from error
+
+
+def show_fresh(sources, site, port):
+    """The pages as they are. Where the folder of the site may not be written, from a temporary one."""
+    with tempfile.TemporaryDirectory() as work:
+        try:
+            build(sources, site)
+        except NotWritable:
+            site = Path(work) / 'site'
+            build(sources, site)
+        except SystemExit as error:
+            print(f'{error}\nturbidite: the site cannot be built\n  The lines above say why; the pages themselves are in '
+                  f'{sources / "docs"}.', file=sys.stderr)
+            sys.exit(PROGRAM_FAILED)
+        show(site, port)
 
 
 class Silent(http.server.SimpleHTTPRequestHandler):
@@ -137,7 +171,12 @@ def show(site, port):
 if __name__ == '__main__':
     match sys.argv[1:]:
         case ['build', sources, site]:
-            build(Path(sources).resolve(), Path(site).resolve())
+            try:
+                build(Path(sources).resolve(), Path(site).resolve())
+            except NotWritable as error:
+                sys.exit(str(error))
+        case ['fresh', sources, site, *port]:
+            show_fresh(Path(sources).resolve(), Path(site).resolve(), int(port[0]) if port else 0)
         case ['show', site, *port]:
             show(Path(site).resolve(), int(port[0]) if port else 0)
         case _:

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <regex>
 #include <set>
@@ -47,6 +48,20 @@ using Record = nlohmann::ordered_json;
 
 bool were_poured(const Record& record) {
     return !record.value("hash_before_pouring", "").empty();
+}
+
+double number_in(const Values& values, const std::string& key) {
+    const auto at = values.find(key);
+    return at == values.end() ? 0.0 : std::strtod(at->second.c_str(), nullptr);
+}
+
+/// Pouring raises grains.overlap to limits.penetration (accept_overlaps of case_file.cpp): that is
+/// no other default.
+void undo_accepted_overlaps(Values& then, const Values& now) {
+    const double own = number_in(now, "grains.overlap");
+    if (number_in(then, "grains.overlap") == std::max(own, number_in(then, "limits.penetration")) &&
+        now.contains("grains.overlap"))
+        then["grains.overlap"] = now.at("grains.overlap");
 }
 
 /// Keys that the case, the study or the command line named then; nothing in records of versions
@@ -94,6 +109,7 @@ std::optional<std::vector<std::string>> other_defaults(const PlannedRun& run,
         if (now && now->contains("grains.extra_file")) return std::nullopt;
         std::erase_if(files_then, is_of_grains), std::erase_if(files_now, is_of_grains);
         if (then) then->erase("grains.file");
+        if (then && now) undo_accepted_overlaps(*then, *now);
     }
     if (!then || !now || files_then != files_now) return std::nullopt;
     std::vector<std::string> changes;

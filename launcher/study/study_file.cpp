@@ -11,6 +11,7 @@
 
 #include "coupler/keys/case_error.hpp"
 #include "coupler/keys/nearest_name.hpp"
+#include "launcher/case/files/case_entries.hpp"
 #include "launcher/case/files/file_names.hpp"
 #include "launcher/case/files/yaml_tree.hpp"
 
@@ -52,6 +53,12 @@ std::string value_text(const YAML::Node& node) {
     return text.c_str();
 }
 
+/// An override is read as YAML again: what stands in quotes, by this tag of yaml_tree, keeps them.
+std::string override_of(const std::string& key, const YAML::Node& node) {
+    if (node.IsScalar() && node.Tag() == "!") return quoted_override(key, node.Scalar());
+    return key + "=" + value_text(node);
+}
+
 /// "group.key=value" of every leaf; groups may be nested or written with dots.
 void flatten(const std::string& prefix, const YAML::Node& node, std::vector<std::string>& result) {
     for (const auto& item : node) {
@@ -59,7 +66,7 @@ void flatten(const std::string& prefix, const YAML::Node& node, std::vector<std:
         if (item.second.IsMap())
             flatten(key + ".", item.second, result);
         else
-            result.push_back(key + "=" + value_text(item.second));
+            result.push_back(override_of(key, item.second));
     }
 }
 
@@ -106,7 +113,7 @@ void add_swept_keys(const std::string& prefix, const YAML::Node& node, StudyPart
         }
         SweepAxis axis{key, {}};
         for (const YAML::Node& value : item.second)
-            axis.points.push_back({value_text(value), {key + "=" + value_text(value)}});
+            axis.points.push_back({value_text(value), {override_of(key, value)}});
         part.axes.push_back(axis);
     }
 }

@@ -72,13 +72,30 @@ struct Asked {
     bool quick;
 };
 
+/// key=value of an entry. A text that would be read as something else stands in quotes.
+std::string override_of(const CaseEntry& entry) {
+    const std::string plain = entry.key + "=" + (entry.is_null ? "~" : entry.value);
+    if (entry.is_null || entry.is_list) return plain;
+    const CaseEntries again = entries_of_override(plain);
+    const bool same = again.problems.empty() && again.entries.size() == 1 &&
+                      again.entries[0].value == entry.value && !again.entries[0].is_list;
+    return same ? plain : quoted_override(entry.key, entry.value);
+}
+
 /// --set takes groups, `contact={friction: 0.5}`; what is not key=value is refused with the cases.
 std::vector<std::string> with_flat_keys(const std::vector<std::string>& overrides) {
     std::vector<std::string> result;
     for (const std::string& text : overrides)
         for (const CaseEntry& entry : entries_of_override(text).entries)
-            result.push_back(entry.key + "=" + (entry.is_null ? "~" : entry.value));
+            result.push_back(override_of(entry));
     return result;
+}
+
+/// The value as names and tables have it: without quotes.
+std::string value_of(const std::string& override_) {
+    const CaseEntries read = entries_of_override(override_);
+    const bool quoted = override_.back() == '"' && read.entries.size() == 1;
+    return quoted ? read.entries[0].value : override_.substr(override_.find('=') + 1);
 }
 
 /// The axis, or the one value that `full`, `quick` or --set gives to its key; of several the last.
@@ -86,7 +103,7 @@ SweepAxis at_level(const SweepAxis& axis, const std::vector<std::string>& level)
     SweepAxis result = axis;
     for (const std::string& override_ : level)
         if (override_.rfind(axis.key + "=", 0) == 0)
-            result = {axis.key, {{override_.substr(axis.key.size() + 1), {override_}}}};
+            result = {axis.key, {{value_of(override_), {override_}}}};
     return result;
 }
 

@@ -122,6 +122,21 @@ class Gallery(unittest.TestCase):
         self.assertEqual(self.gallery('--expected', 'nowhere.yaml').returncode, 2)
 
 
+class Folders(unittest.TestCase):
+    root = None
+
+    def test_no_run_goes_into_the_folder_of_another_entry(self):
+        sys.path.insert(0, str(self.root / 'launcher/report/gallery'))
+        from main import Gallery as Player, parsed
+        names = [name for name in re.findall(r'^([\w/-]+):', (self.root / 'configs/expected.yaml').read_text(), re.M)]
+        folders = []
+        for words in ([], ['--quick']):
+            player = Player(parsed(['turbidite', str(self.root / 'configs'), '', '--out', 'out', *words]), {})
+            folders += [player.folder(name) for name in names]
+        self.assertEqual(len(set(folders)), 2 * len(names))
+        self.assertFalse([folder for folder in folders if set(folder.parents) & set(folders)])
+
+
 class Itself(unittest.TestCase):
     def test_sentences(self):
         self.assertEqual(said('at rest from 46 t_c. at\nrest at about 50 t_c, at rest by 2.5 t_c'),
@@ -132,4 +147,5 @@ class Itself(unittest.TestCase):
 
 if __name__ == '__main__':
     Gallery.program, Gallery.root = sys.argv.pop(), Path(sys.argv.pop()).resolve()
+    Folders.root = Gallery.root
     unittest.main()

@@ -157,6 +157,15 @@ TEST_F(New, TakesAlongTheFilesThatTheCaseNames) {
     EXPECT_EQ(checked.code, 0) << checked.err;
 }
 
+TEST_F(New, IsNotCalledLikeACaseOfItsStudy) {
+    for (const std::string name : {"avalanche-dry", "sub/../avalanche-dry.yaml"}) {
+        const Answer answer = shell(TURBIDITE_PROGRAM " new " + name + " --like dry-columns");
+        EXPECT_EQ(answer.code, 2) << answer.out;
+        EXPECT_SAYS(answer.err, "avalanche-dry.yaml is the name of a file that dry-columns needs");
+        EXPECT_FALSE(std::filesystem::exists(scratch.path() / "avalanche-dry.yaml"));
+    }
+}
+
 TEST_F(New, KnowsTheCasesOfValidationToo) {
     const std::string name = "validation/settling-disc";
     for (const std::string& word : {name, "configs/" + name, "configs/" + name + ".yaml"})

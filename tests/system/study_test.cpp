@@ -104,6 +104,42 @@ TEST_F(StudyRuns, GoesOnAfterARunThatFails) {
     EXPECT_SAYS(text(scratch.path() / "s/study.html"), "coarse: physics refused");
 }
 
+/// A PATH with a program in the place of mpirun alone.
+std::string with_mpirun(const ScratchFolder& scratch, const std::string& script) {
+    const fs::path file = scratch.write("bin/mpirun", script);
+    fs::permissions(file, fs::perms::owner_all);
+    return "PATH=" + file.parent_path().string();
+}
+
+// Which a shell, too, ends with when it finds no command: it says nothing about mpirun.
+TEST_F(StudyRuns, GoesOnAfterAProgramThatEndsWith127) {
+    const std::string path =
+        with_mpirun(scratch,
+                    "#!/bin/sh\nfor word; do case $before in *turbidite-member) run=$word;; esac; "
+                    "before=$word; "
+                    "done\nprintf '4\\ngrains rank 0\\nended with status 127' > "
+                    "$run/logs/first_end\nexit 127\n");
+    const Answer answer =
+        shell(path + ":$PATH " + TURBIDITE_PROGRAM + " study frictions.yaml --out s");
+    EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "grains rank 0 ended with status 127");
+    EXPECT_SAYS(answer.out, "0 of 3 runs done");
+    for (const char* run : {"friction-0", "friction-0.3", "friction-0.6"})
+        EXPECT_SAYS(text(scratch.path() / "s/frictions" / run / "run.json"), "\"failed\"");
+}
+
+TEST_F(StudyRuns, GoesOnWhereNoJobCanBeStarted) {
+    const std::string path = with_mpirun(scratch, "#!/no/such/shell\n");
+    // Another mpirun would be taken instead.
+    const Answer answer = shell(path + " " + TURBIDITE_PROGRAM + " study frictions.yaml --out s");
+    EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err,
+                "friction-0.6: it stays as it is, and the next call tries again: mpirun cannot be "
+                "started: No such file or directory");
+    EXPECT_SAYS(answer.out, "0 of 3 runs done");
+    EXPECT_EQ(lines("s/study.csv"), 4);
+}
+
 // Interrupted during its second run; the same command then runs the rest.
 TEST_F(StudyRuns, IsContinuedAfterAnInterruption) {
     scratch.write(

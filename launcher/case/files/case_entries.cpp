@@ -133,6 +133,12 @@ CaseEntries entries_of_override(const std::string& text) {
     return result;
 }
 
+std::string quoted_override(const std::string& key, const std::string& text) {
+    YAML::Emitter quoted;
+    quoted << YAML::DoubleQuoted << text;
+    return key + "=" + quoted.c_str();
+}
+
 CaseEntries read_case_entries(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides) {
     CaseEntries result;

@@ -24,6 +24,12 @@ bool is_current(int descriptor, const std::filesystem::path& path) {
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
+/// That of a run never has content: one that has is somebody's own file.
+bool is_empty(int descriptor) {
+    struct stat opened;
+    return ::fstat(descriptor, &opened) == 0 && opened.st_size == 0;
+}
+
 enum class Try { taken, busy, without_locks };
 
 struct Attempt {
@@ -39,11 +45,24 @@ Failure cannot_open(const std::filesystem::path& path) {
                        "or use another folder.\nNothing was started. Exit code 2.");
 }
 
+Failure is_no_lock(const std::filesystem::path& path) {
+    return Failure(
+        ExitCode::bad_input,
+        path.string() +
+            " has content: it is a file of yours\n  In the folder of a run or a study an "
+            "empty file of this name tells whether it is in use. Rename yours, or use "
+            "another folder.\nNothing was started. Exit code 2.");
+}
+
 Attempt attempt(const std::filesystem::path& path) {
     // Not O_CLOEXEC: mpirun inherits the descriptor, and with it the lock, as long as the job
     // lives.
     const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT, 0644);
     if (descriptor < 0) throw cannot_open(path);
+    if (!is_empty(descriptor)) {
+        ::close(descriptor);
+        throw is_no_lock(path);
+    }
     const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
     if (!locked && errno != EWOULDBLOCK) return {Try::without_locks, descriptor};
     // A lock on a file that its owner has just removed holds nothing: another try makes a new one.
@@ -81,7 +100,7 @@ bool RunLock::is_held(const std::filesystem::path& folder) {
 RunLock::~RunLock() {
     if (descriptor_ < 0) return;
     // Before the lock is given up: whoever takes it later finds that the name is gone.
-    ::unlink(file_.c_str());
+    if (is_empty(descriptor_)) ::unlink(file_.c_str());
     ::close(descriptor_);
 }
 

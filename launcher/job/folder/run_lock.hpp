@@ -17,7 +17,7 @@ class RunLock {
 
     /// Null if another process has the folder, which must exist, and keeps it for all of
     /// `patience`. Where the file system knows no locks, the folder counts as free. Throws Failure
-    /// (bad input) if the file cannot be opened.
+    /// (bad input) if the file cannot be opened, or has content: it is somebody's own, and stays.
     static std::shared_ptr<RunLock> take(const std::filesystem::path& folder,
                                          std::chrono::seconds patience = for_the_killed);
 

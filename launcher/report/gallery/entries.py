@@ -3,6 +3,7 @@
 import difflib
 import json
 import math
+import re
 from dataclasses import dataclass, field
 
 import quantities
@@ -11,6 +12,7 @@ FORMS = ('full', 'quick')
 KEYS = {'entry': (*FORMS, 'small'), 'form': ('set', 'expected', 'recorded'),
         'bounds': ('is', 'within', 'above', 'below'), 'recorded': ('commit', 'date', 'processor', 'memory')}
 INF = math.inf
+PLAIN = re.compile(r'[\w./+](?:[\w./+ -]*[\w./+-])?')  # texts that need no quotes in YAML
 
 
 class Wrong(Exception):
@@ -53,12 +55,13 @@ class Entry:
 
 
 def as_yaml(value):
-    """Numbers as they were written, 12 and not 12.0."""
+    """Numbers as they were written, 12 and not 12.0; texts that would be read as something else in quotes."""
     if isinstance(value, float) and value.is_integer():
         return str(int(value))
     if isinstance(value, list):
         return '[' + ', '.join(as_yaml(one) for one in value) + ']'
-    return value if isinstance(value, str) else json.dumps(value)
+    plain = isinstance(value, str) and PLAIN.fullmatch(value) and value.lower() != 'null'
+    return value if plain else json.dumps(value, ensure_ascii=False)
 
 
 def read_entries(tree, is_study):

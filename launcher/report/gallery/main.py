@@ -10,6 +10,7 @@ import json
 import re
 import signal
 import sys
+import time
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).resolve().parents[1]))
@@ -19,6 +20,7 @@ import playing
 import quantities
 import records
 import run_data
+import runs_there
 
 
 class Gallery:
@@ -35,8 +37,8 @@ class Gallery:
         return path
 
     def folder(self, name):
-        """Of the run, or of the study's runs."""
-        return Path(self.options.out) / (name + ('-quick' if self.form == 'quick' else ''))
+        """Of the run, or of the study's runs. None lies in that of a study: validation/bead is a case, validation a study."""
+        return Path(self.options.out) / (name.replace('/', '-') + ('-quick' if self.form == 'quick' else ''))
 
     def is_study(self, name):
         return re.search(r'^(parts|case):', self.file(name).read_text(), re.MULTILINE) is not None
@@ -63,19 +65,25 @@ def list_all(gallery):
     print(f'{"case or study":<30}{"recorded":<46}{"processor":>10}{"memory":>9}  short form')
     for name, entry in gallery.entries.items():
         form = entry.forms['full']
-        spent = form.recorded and (f'{form.recorded["processor"]:.0f} s', f'{form.recorded["memory"]:.0f} MB')
         quick = records.told(gallery.configs, entry.forms['quick'].recorded) if 'quick' in entry.forms else '-'
-        seconds, memory = spent or ('', '')
+        seconds, memory = spent_on(form.recorded)
         print(f'{name:<30}{records.told(gallery.configs, form.recorded):<46}{seconds:>10}{memory:>9}  {quick}')
 
 
+def spent_on(recorded):
+    """Empty for what was not recorded, or played in several parts."""
+    if not recorded or 'processor' not in recorded:
+        return '', ''
+    return f'{recorded["processor"]:.0f} s', f'{recorded["memory"]:.0f} MB'
+
+
 def as_json(gallery):
-    def told(form):
+    def of_form(form):
         bounds = [{'run': one.run, 'what': one.what, 'lowest': finite(one.lowest), 'highest': finite(one.highest)}
                   for one in form.expected]
         return {'set': form.overrides, 'expected': bounds, 'recorded': form.recorded,
                 'age': form.recorded and records.age(gallery.configs, form.recorded)}
-    return json.dumps({name: {'study': gallery.is_study(name), **{form: told(one) for form, one in entry.forms.items()}}
+    return json.dumps({name: {'study': gallery.is_study(name), **{form: of_form(one) for form, one in entry.forms.items()}}
                        for name, entry in gallery.entries.items()}, indent=2)
 
 
@@ -110,26 +118,80 @@ def play(gallery, name):
     form, options = gallery.form_of(name), gallery.options
     folder = gallery.folder(name)
     played = records.load_played(folder) if options.judge else play_now(gallery, name, form, folder)
-    if played is None:
+    if played is None or played.code is None:
         raise entries.Wrong(f'--judge compares what was played before, and no run of the gallery ended in {folder}.')
     if played.code != 0:
         print(f'{name}: it did not end as it should: exit code {played.code}', file=sys.stderr)
-        return played.code
+        return played.code if played.code > 0 else 128 - played.code  # negative: the signal that killed it
+    require_done(form, folder)
     failed = judge(form, folder)
-    print(f'{name}: {len(form.expected) - failed} of {len(form.expected)} numbers hold; '
-          f'{played.processor:.0f} s of processor time, {played.memory:.0f} MB in its largest program')
+    print(f'{name}: {len(form.expected) - failed} of {len(form.expected)} numbers hold; {told_spent(played)}')
     if options.record and not failed:
+        require_of_its_commit(form, folder, played.source)
         record(gallery, name, played)
     return 1 if failed else 0
 
 
+def require_done(form, folder):
+    """A study ends with 0 while another call plays the rest of it."""
+    for run in judged(form, folder):
+        state = 'being played' if run.is_held() else run.record.get('status') or 'not there'
+        if state != 'done':
+            raise entries.Wrong(f'{run.folder} is not done, and cannot be judged: it is {state}. --judge compares what is '
+                                'there once it is.')
+
+
+def judged(form, folder):
+    return [runs_there.run_there(folder / run) for run in sorted({one.run for one in form.expected})]
+
+
+def told_spent(played):
+    if played.processor is None:
+        return 'played in several parts, whose time is not known'
+    return f'{played.processor:.0f} s of processor time, {played.memory:.0f} MB in its largest program'
+
+
 def play_now(gallery, name, form, folder):
-    line = playing.command(gallery.options.program, gallery.file(name), gallery.is_study(name), form, folder)
-    print(playing.shown(line), flush=True)
     # Taken first: by the end of the run there may be another commit.
-    played = playing.play(line, records.source(gallery.configs, gallery.options.expected, gallery.options.program))
+    source = records.source(gallery.configs, gallery.options.expected, gallery.options.program)
+    is_study = gallery.is_study(name)
+    continued = is_study and begin_study(gallery, folder, source)
+    if not is_study:
+        records.forget_played(folder)
+    line = playing.command(gallery.options.program, gallery.file(name), is_study, form, folder)
+    print(playing.shown(line), flush=True)
+    begun = records.load_played(folder)
+    played = playing.play(line, source)
+    if continued or begun != records.load_played(folder):  # another call has begun, too
+        played.processor = played.memory = None
     records.save_played(folder, played)
     return played
+
+
+def begin_study(gallery, folder, source):
+    """A study goes on with the runs that are there. Those that this program has not played, as it is now, are set aside.
+    Whether others are left."""
+    before = records.load_played(folder)
+    runs = runs_there.runs_of_study(folder)
+    if source.changed or (before and before.source.changed):
+        runs_there.set_aside(runs, 'not everything is committed, and they may be of other sources')
+        runs = []
+    own = records.versions_of(gallery.options.program)
+    runs_there.set_aside([run for run in runs if run.versions() != own],
+                         f'another version or commit than {" ".join(own).strip() or "this"} has played them')
+    folder.mkdir(parents=True, exist_ok=True)
+    # For a call that continues this one: what it began with.
+    records.save_played(folder, records.Played(source, None, None, None, time.time_ns()))
+    return any(run.versions() == own for run in runs)
+
+
+def require_of_its_commit(form, folder, source):
+    """Somebody may have played in the folder since the gallery did, or during it."""
+    for run in judged(form, folder):
+        _, commit = run.versions()
+        if not commit or not records.same_commit(commit, source.commit):
+            raise entries.Wrong(f'--record names the commit that was played, {source.commit}, and {run.folder} is of '
+                                f'{commit or "an unknown one"}. Play it again without --judge.')
 
 
 def record(gallery, name, played):
@@ -139,11 +201,26 @@ def record(gallery, name, played):
     print(f'{name}: recorded in {file}')
 
 
+def require_recordable(gallery):
+    """Before hours of playing."""
+    options = gallery.options
+    source = records.source(gallery.configs, options.expected, options.program)
+    if not options.judge:  # else that of the gallery's last run
+        require_commit(source)
+    records.require_writable(options.expected)
+    text = Path(options.expected).read_text()
+    for name in options.names:
+        records.with_record(text, name, gallery.form, records.Played(source, 0, None, None))
+
+
 def require_commit(source):
     """A record names the commit that was played."""
     if source.commit is None:
         raise entries.Wrong('--record names the commit that was played: it needs a checkout with git, or an installed '
                             'program that says its commit (--version).')
+    if source.checkout:
+        raise entries.Wrong(f'--record names the commit that was played: the program is of {source.commit}, and the cases '
+                            f'are of {source.checkout}. Build the program anew.')
     if source.changed:
         raise entries.Wrong(f'--record names the commit that was played, and {", ".join(source.changed[:3])} '
                             'is not committed.')
@@ -168,18 +245,41 @@ def act(options, tree):
         list_all(gallery)
     for name in options.names:
         gallery.form_of(name)
-    if options.record and not options.judge:
-        require_commit(records.source(gallery.configs, options.expected, options.program))
-    codes = [play(gallery, name) for name in options.names]
-    return next((code for code in sorted(codes, reverse=True) if code), 0)
+    if options.record:
+        require_recordable(gallery)
+    return play_all(gallery, options.names)
+
+
+def play_all(gallery, names):
+    """Until one is interrupted; one that cannot be played or judged does not keep the others from it. The largest exit code."""
+    codes = [0]
+    for name in names:
+        try:
+            codes.append(play(gallery, name))
+        except entries.Wrong as wrong:
+            codes.append(told(wrong))
+        if was_interrupted(codes[-1]):
+            break
+    return max(codes)
+
+
+def told(wrong):
+    print(f'turbidite gallery: {wrong}\nExit code 2.', file=sys.stderr)
+    return 2
+
+
+def was_interrupted(code):
+    """By Ctrl-C or a signal (docs/running.md), or killed."""
+    return code >= 128
 
 
 def main(arguments):
     try:
         return act(parsed(arguments), json.load(sys.stdin))
     except entries.Wrong as wrong:
-        print(f'turbidite gallery: {wrong}\nExit code 2.', file=sys.stderr)
-        return 2
+        return told(wrong)
+    except KeyboardInterrupt:  # while nothing is played
+        return 130
 
 
 if __name__ == '__main__':

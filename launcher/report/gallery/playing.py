@@ -2,9 +2,14 @@
 """Plays a case or a study by the program, and measures what it took."""
 import os
 import shlex
+import signal
 import subprocess
+import sys
+from pathlib import Path
 
 from records import Played
+
+MEASURED = Path(__file__).with_name('measured_process.py')
 
 
 def command(program, file, is_study, form, out):
@@ -18,13 +23,22 @@ def shown(line):
 
 
 def play(line, source):
-    """Without a report, which would take part of the time. Ctrl-C reaches the program too, which then ends orderly."""
-    process = subprocess.Popen(line, stdin=subprocess.DEVNULL, env={**os.environ, 'TURBIDITE_REPORT': 'off'})
+    """Without a report, which would take part of the time. Ctrl-C reaches the program too, which then ends orderly; SIGTERM
+    is passed on."""
+    told, tell = os.pipe()
+    process = subprocess.Popen([sys.executable, '-I', '-S', '-B', str(MEASURED), str(tell), *line], pass_fds=[tell],
+                               stdin=subprocess.DEVNULL, env={**os.environ, 'TURBIDITE_REPORT': 'off'})
+    os.close(tell)
+    before = signal.signal(signal.SIGTERM, lambda *_: process.send_signal(signal.SIGTERM))
     while True:
         try:
-            _, status, used = os.wait4(process.pid, 0)
+            code = process.wait()
             break
         except KeyboardInterrupt:
             pass
-    process.returncode = os.waitstatus_to_exitcode(status)
-    return Played(source, process.returncode, used.ru_utime + used.ru_stime, used.ru_maxrss / 1000.0)
+    signal.signal(signal.SIGTERM, before)
+    with open(told, encoding='ascii') as answer:
+        words = answer.read().split()
+    if not words:  # killed, or it could not start the program
+        return Played(source, code or 1, None, None)
+    return Played(source, int(words[0]), float(words[1]), float(words[2]) / 1000.0)

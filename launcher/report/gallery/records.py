@@ -8,6 +8,8 @@ import subprocess
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from entries import Wrong
+
 OLD = 100  # commits
 PLAYED = 'gallery.json'
 
@@ -18,18 +20,27 @@ class Source:
     commit: str    # None: neither a checkout nor built from one
     changed: list  # files that differ from the commit
     date: str
+    checkout: str = None  # where the cases are, if that is another commit than the program's
 
 
 @dataclass
 class Played:
     source: Source
-    code: int          # exit code
-    processor: float   # s, of all programs of the job together
-    memory: float      # MB, of the largest of them
+    code: int          # exit code; None: it has begun
+    processor: float   # s, of all programs of the job together; None where earlier or other calls played a part
+    memory: float      # MB, of the largest of them; None as above
+    begun: int = None  # ns, of a study: another call that begins writes another one
 
 
 def source(configs, expected, program):
-    return Source(commit(configs) or commit_of(program), changed(configs, Path(expected).name), datetime.date.today().isoformat())
+    here, (_, built) = commit(configs), versions_of(program)
+    elsewhere = here if here and built and not same_commit(here, built) else None
+    return Source(built or here, changed(configs, Path(expected).name), datetime.date.today().isoformat(), elsewhere)
+
+
+def same_commit(one, other):
+    """Of two abbreviations."""
+    return one.startswith(other) or other.startswith(one)
 
 
 def save_played(folder, played):
@@ -37,8 +48,13 @@ def save_played(folder, played):
         (folder / PLAYED).write_text(json.dumps(asdict(played)) + '\n')
 
 
+def forget_played(folder):
+    """Before a run: it may be killed, and what an earlier one took is not what it took."""
+    (folder / PLAYED).unlink(missing_ok=True)
+
+
 def load_played(folder):
-    """None where the gallery has not played to an end."""
+    """None where the gallery has played nothing."""
     file = folder / PLAYED
     if not file.is_file():
         return None
@@ -59,14 +75,14 @@ def commit(folder):
     return git(folder, 'rev-parse', '--short=10', 'HEAD')
 
 
-def commit_of(program):
-    """What an installed program was built from, by its own words."""
+def versions_of(program):
+    """Version and commit of what was built, by its own words; empty where it does not say."""
     try:
         told = subprocess.run([str(program), '--version'], capture_output=True, text=True).stdout
     except FileNotFoundError:
-        return None
-    found = re.search(r'\(commit (\w+)\)', told)
-    return found and found[1]
+        return '', ''
+    found = re.match(r'turbidite (\S+)(?: \(commit (\w+)\))?', told)
+    return (found[1], found[2] or '') if found else ('', '')
 
 
 def changed(folder, expected):
@@ -93,16 +109,38 @@ def told(folder, recorded):
 
 
 def line(played):
-    return (f'    recorded: {{commit: "{played.source.commit}", date: {played.source.date}, '
-            f'processor: {played.processor:.0f}, memory: {played.memory:.0f}}}')
+    spent = '' if played.processor is None else f', processor: {played.processor:.0f}, memory: {played.memory:.0f}'
+    return f'    recorded: {{commit: "{played.source.commit}", date: {played.source.date}{spent}}}'
 
 
 def with_record(text, name, form, played):
     """The document with the `recorded` line of a form replaced, or added as its last. Entries begin in the first column,
-    forms two further to the right, their keys four."""
+    forms two further to the right, their keys four; Wrong where they do not."""
     lines = text.splitlines()
-    keys = [text.split('#')[0].rstrip() for text in lines]  # comments may follow a key
-    begin = keys.index(f'  {form}:', keys.index(f'{name}:')) + 1
-    end = next((k for k in range(begin, len(lines)) if not lines[k].startswith('    ')), len(lines))
+    begin, end = lines_of(lines, 0, len(lines), f'{name}:', f'{name} in the first column')
+    begin, end = lines_of(lines, begin, end, f'  {form}:', f'`  {form}:`, two columns in, below {name}')
     kept = [text for text in lines[begin:end] if not text.startswith('    recorded:')]
     return '\n'.join([*lines[:begin], *kept, line(played), *lines[end:]]) + '\n'
+
+
+def lines_of(lines, begin, end, key, told):
+    """What stands below a key, further to the right; comments may follow the key."""
+    found = next((k for k in range(begin, end) if lines[k].split('#')[0].rstrip() == key), None)
+    if found is None:
+        raise Wrong(f'--record writes a line below {told}, and there is no such line in the file of expected numbers: '
+                    'write it so, with its keys in lines of their own.')
+    margin = ' ' * (len(key) - len(key.lstrip()) + 1)
+    says_nothing = [not text.split('#')[0].strip() for text in lines]
+    last = next((k for k in range(found + 1, end) if not lines[k].startswith(margin) and not says_nothing[k]), end)
+    while says_nothing[last - 1]:
+        last -= 1
+    return found + 1, last
+
+
+def require_writable(file):
+    """Found before something is played."""
+    try:
+        with open(file, 'r+b'):
+            pass
+    except OSError as error:
+        raise Wrong(f'--record writes into {file}: {error.strerror}. Give one of yours: --expected FILE.') from None

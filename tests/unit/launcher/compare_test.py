@@ -210,6 +210,12 @@ class Compare(RunFolderTest):
                       page)
         self.assertIn('1, 2, 3', page)
 
+    def test_groups_are_called_after_what_their_folders_have_in_common(self):
+        for names, common in ((('friction-0.3-seed-10', 'friction-0.3-seed-11', 'friction-0.3-seed-12'), 'friction-0.3'),
+                              (('discs-1', 'discs-2'), 'discs'), (('glass-1', 'glass-2'), 'glass'), (('run1', 'run12'), 'run'),
+                              (('dense_s1', 'dense_s2'), 'dense'), (('seed-1', 'seed-2'), 'seed-1 and 1 more')):
+            self.assertEqual(seeds.name_of([run_data.RunData(self.folder / name) for name in names]), common)
+
     def test_each_keeps_seeds_apart(self):
         for seed in (1, 2):
             self.write_seed(f'run-{seed}', seed, float(seed))

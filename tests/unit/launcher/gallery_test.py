@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The gallery on made-up runs: what is measured, what holds, what the file of expected numbers may say, and records."""
 import contextlib
+import datetime
+import fcntl
 import io
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -40,12 +43,21 @@ TREE = {'falling': {'full': {'expected': {'end_height': {'is': 2.9, 'within': 0.
                     'quick': {'set': {'time.end': 1.0, 'domain.size': [4.0, 6.5], 'grains.shape': 'disc'},
                               'expected': {'end_height': {'below': 3.0}}}},
         'other': {'full': None}}
-# In the place of the program: copies the made-up run to --out.
+# In the place of the program: copies the made-up run to --out, or those of a study that are not there.
 PROGRAM = """#!/usr/bin/python3
-import shutil, sys
-out = sys.argv[sys.argv.index('--out') + 1]
-shutil.rmtree(out, True)
-shutil.copytree({made_up!r}, out)
+import json, pathlib, shutil, sys
+version = pathlib.Path({made_up!r}).with_name('version').read_text().split()
+if sys.argv[1] == '--version':
+    sys.exit(print('turbidite', version[0], f'(commit {{version[1]}})' if version[1:] else ''))
+made_up, out = pathlib.Path({made_up!r}), pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
+for folder in [file.parent for file in made_up.glob('*/*/run.json')] if sys.argv[1] == 'study' else [made_up]:
+    to = out / folder.relative_to(made_up)
+    if sys.argv[1] != 'study' or not (to / 'run.json').exists():
+        shutil.rmtree(to, True)
+        shutil.copytree(folder, to)
+        record = json.loads((to / 'run.json').read_text())
+        record['versions'] = dict(zip(('turbidite', 'commit'), [*version, '']))
+        (to / 'run.json').write_text(json.dumps(record))
 sys.exit({code})
 """
 
@@ -116,6 +128,13 @@ class Entries(unittest.TestCase):
         self.assertEqual(form.arguments(), ['--set', 'time.end=1', '--set', 'domain.size=[4, 6.5]', '--set', 'grains.shape=disc'])
 
 
+    def test_texts_are_read_as_they_were_written(self):
+        for text, typed in (('disc', 'disc'), ('my-code --all', 'my-code --all'), ('grains #2.csv', '"grains #2.csv"'),
+                            ('a: b', '"a: b"'), ('~', '"~"'), ('null', '"null"'), ('', '""'), (None, 'null'), (True, 'true'),
+                            (['a, b', 2.5], '["a, b", 2.5]')):
+            self.assertEqual(entries.as_yaml(text), typed)
+
+
 class Played(RunFolderTest):
     def setUp(self):
         super().setUp()
@@ -129,8 +148,17 @@ class Played(RunFolderTest):
         self.write_all()
         self.write('made-up/case.yaml', (self.folder / 'case.yaml').read_text())
         self.write('made-up/history.csv', (self.folder / 'history.csv').read_text())
+        self.write('made-up/run.json', (self.folder / 'run.json').read_text())
+        self.write('version', '0.1.0')
         self.write('program', PROGRAM.format(made_up=str(self.folder / 'made-up'), code=code))
         (self.folder / 'program').chmod(0o755)
+
+    def study_of(self, *runs):
+        """The made-up program plays them."""
+        self.write('configs/sweep.yaml', 'parts:\n  column:\n    case: falling.yaml\n')
+        for run in runs:
+            for file in ('case.yaml', 'history.csv', 'run.json'):
+                self.write(f'made-up/column/{run}/{file}', (self.folder / file).read_text())
 
     def act(self, *words, tree=None):
         """(exit code, what was printed)"""
@@ -170,6 +198,15 @@ class Gallery(Played):
         self.assertIn('exit code 6', told)
         self.assertNotIn('holds', told)
 
+    def test_nothing_is_played_after_an_interruption(self):
+        tree = {'falling': TREE['falling'], 'other': TREE['falling']}
+        self.assertEqual(self.act('falling', 'other', tree=tree)[0], 0)
+        for code, told_code in ((130, 130), (143, 143), (-9, 137)):
+            with mock.patch.object(playing, 'play', return_value=records.Played(None, code, 1.0, 2.0)) as play, \
+                    mock.patch.object(records, 'save_played'):
+                self.assertEqual(self.act('falling', 'other', tree=tree)[0], told_code)
+            self.assertEqual(play.call_count, 1)
+
     def test_the_short_form(self):
         code, told = self.act('--quick', 'falling')
         self.assertEqual(code, 0)
@@ -178,16 +215,39 @@ class Gallery(Played):
         self.assertEqual(self.act('--quick', 'other')[0], 2)
 
     def test_a_study_is_played_and_its_runs_compared(self):
-        self.write('configs/sweep.yaml', 'parts:\n  column:\n    case: falling.yaml\n')
-        for file in ('case.yaml', 'history.csv'):
-            self.write(f'made-up/column/seed-1/{file}', (self.folder / file).read_text())
-        height = {'end_height': {'is': 2.9, 'within': 0.1}}
-        tree = {'sweep': {'full': {'expected': {'column/seed-1': height, 'column/seed-2': height}}}}
+        self.study_of('seed-1', 'seed-2')
+        tree = {'sweep': {'full': {'expected': {'column/seed-1': {'end_height': {'is': 2.9, 'within': 0.1}},
+                                                'column/seed-2': {'end_height': {'is': 3.9, 'within': 0.1}}}}}}
         code, told = self.act('sweep', tree=tree)
         self.assertEqual(code, 1)
         self.assertRegex(told, r'turbidite study \S+/configs/sweep.yaml --out \S+/out/sweep\n')
         self.assertIn('holds   column/seed-1: end_height = 2.9 D', told)
-        self.assertIn('FAILS   column/seed-2: end_height = cannot be told', told)
+        self.assertIn('FAILS   column/seed-2: end_height = 2.9 D', told)
+
+    def test_a_run_that_was_killed_is_not_judged(self):
+        self.act('falling')
+        self.write('out/falling/run.json', json.dumps({'status': 'prepared'}))
+        code, told = self.act('falling', '--judge')
+        self.assertEqual(code, 2)
+        self.assertIn('out/falling is not done, and cannot be judged: it is prepared', told)
+
+    def test_a_gallery_that_was_killed_leaves_no_time_of_an_earlier_run(self):
+        self.act('falling')
+        with mock.patch.object(playing, 'play', side_effect=KeyboardInterrupt):
+            self.assertEqual(self.act('falling')[0], 130)
+        code, told = self.act('falling', '--judge')
+        self.assertEqual(code, 2)
+        self.assertIn('no run of the gallery ended in', told)
+
+    def test_the_folder_of_a_case_is_not_that_of_a_study(self):
+        self.study_of('seed-1')
+        self.write('configs/sweep/column.yaml', 'time:\n  step: 0.1\n')
+        holds = {'end_height': {'is': 2.9, 'within': 0.1}}
+        tree = {'sweep': {'full': {'expected': {'column/seed-1': holds}}}, 'sweep/column': {'full': {'expected': holds}}}
+        for _ in range(2):
+            code, told = self.act('sweep', 'sweep/column', tree=tree)
+            self.assertEqual(code, 0, told)
+        self.assertEqual(sorted(folder.name for folder in (self.folder / 'out').iterdir()), ['sweep', 'sweep-column'])
 
     def test_what_is_refused(self):
         for words, text in ((['faling'], 'Did you mean falling'), (['other'], 'no expected numbers so far')):
@@ -220,6 +280,11 @@ class Records(Played):
         super().setUp()
         self.git('init')
         self.commit()
+        self.build()
+
+    def build(self):
+        """The program says that it is of the commit that is checked out."""
+        self.write('version', f'0.1.0 {records.commit(self.folder)}')
 
     def test_a_record_is_one_line_of_the_file(self):
         code, told = self.act('--record', 'falling')
@@ -245,6 +310,25 @@ class Records(Played):
         code, told = self.act('--record', 'falling')
         self.assertEqual(code, 2)
         self.assertIn('configs/falling.yaml is not committed', told)
+
+    def test_what_cannot_be_recorded_is_refused_before_it_is_played(self):
+        def refused(*words):
+            with mock.patch.object(playing, 'play', side_effect=AssertionError):
+                code, told = self.act('--record', *words, 'falling')
+            self.assertEqual(code, 2, told)
+            return told
+        inline = EXPECTED.replace('  quick:\n    set: {time.end: 1}\n', '  quick: {set: {time.end: 1}}\n')
+        self.write('configs/expected.yaml', inline + '  quick:\n')     # that of another entry
+        self.assertIn('below `  quick:`, two columns in, below falling', refused('--quick'))
+        (self.folder / 'configs/expected.yaml').unlink()
+        (self.folder / 'configs/expected.yaml').mkdir()
+        self.assertIn('Is a directory', refused())
+
+    def test_empty_lines_and_comments_of_a_form(self):
+        played = records.Played(records.Source('abc', [], '2026-01-01'), 0, 1.0, 2.0)
+        text = 'a:\n  full:\n    set: {}\n\n# Why.\n    expected: {}\n    recorded: {}\n\n# Other.\nb:\n  full:\n'
+        self.assertEqual(records.with_record(text, 'a', 'full', played), text.replace(
+            '    recorded: {}', '    recorded: {commit: "abc", date: 2026-01-01, processor: 1, memory: 2}'))
 
     def test_old_records_are_told(self):
         recorded = {'commit': records.commit(self.folder), 'date': '2026-01-02', 'processor': 3, 'memory': 4}
@@ -285,6 +369,20 @@ class Records(Played):
         self.assertEqual(code, 2)
         self.assertIn('configs/falling.yaml is not committed', told)
 
+    def test_a_program_of_another_commit_is_not_recorded(self):
+        self.commit('--allow-empty')
+        code, told = self.act('--record', 'falling')
+        self.assertEqual(code, 2)
+        self.assertIn('Build the program anew', told)
+
+    def test_runs_of_another_commit_are_not_recorded_as_of_this_one(self):
+        self.act('falling')
+        record = json.loads((self.folder / 'out/falling/run.json').read_text())
+        self.write('out/falling/run.json', json.dumps({**record, 'versions': {'turbidite': '0.1.0', 'commit': '0123456789'}}))
+        code, told = self.act('--judge', '--record', 'falling')
+        self.assertEqual(code, 2)
+        self.assertIn('is of 0123456789', told)
+
     def test_commits_of_elsewhere_are_told(self):
         recorded = {'commit': '0123456789', 'date': '2026-01-02', 'processor': 3, 'memory': 4}
         tree = {'falling': {'full': {**TREE['falling']['full'], 'recorded': recorded}}}
@@ -299,16 +397,108 @@ class Records(Played):
 
 class Installed(Played):
     def test_the_program_says_its_commit(self):
-        self.assertEqual(records.commit_of(self.folder / 'program'), None)
-        program = (self.folder / 'program').read_text()
-        self.write('program', program.replace('import shutil, sys\n', 'import shutil, sys\nif sys.argv[1] == "--version":\n'
-                                              '    sys.exit(print("turbidite 0.1.0 (commit 0123456789)"))\n'))
+        self.assertEqual(records.versions_of(self.folder / 'program'), ('0.1.0', ''))
+        self.assertEqual(records.versions_of('/bin/true'), ('', ''))
+        self.write('version', '0.1.0 0123456789')
         code, told = self.act('--record', 'falling')
         self.assertEqual(code, 0, told)
         self.assertIn('commit: "0123456789"', (self.folder / 'configs/expected.yaml').read_text())
 
 
+class Studies(Played):
+    """What is there of a study when the gallery plays it."""
+    height = {'end_height': {'is': 2.9, 'within': 0.1}}
+    tree = {'sweep': {'full': {'expected': {'column/seed-1': height, 'column/seed-2': height}}}}
+
+    def setUp(self):
+        super().setUp()
+        self.study_of('seed-1', 'seed-2')
+        self.write('version', '0.1.0 0123456789')
+
+    def act(self, *words, tree=None):
+        return super().act(*words, tree=tree or self.tree)
+
+    def record_of(self, run):
+        return json.loads((self.folder / f'out/sweep/column/{run}/run.json').read_text())
+
+    def change(self, run, **values):
+        self.write(f'out/sweep/column/{run}/run.json', json.dumps({**self.record_of(run), **values}))
+
+    def recorded(self):
+        self.write('configs/expected.yaml', 'sweep:\n  full:\n')
+        self.assertEqual(self.act('--record', 'sweep')[0], 0)
+        return (self.folder / 'configs/expected.yaml').read_text().splitlines()[-1]
+
+    def test_runs_of_another_commit_are_played_anew(self):
+        self.act('sweep')
+        self.change('seed-1', versions={'turbidite': '0.1.0', 'commit': '9876543210'})
+        code, told = self.act('sweep')
+        self.assertEqual(code, 0, told)
+        self.assertIn('1 run of before, now seed-1-old-1', told)
+        self.assertEqual(self.record_of('seed-1')['versions']['commit'], '0123456789')
+        self.assertEqual(self.record_of('seed-1-old-1')['versions']['commit'], '9876543210')
+        self.assertFalse((self.folder / 'out/sweep/column/seed-2-old-1').exists())
+        self.assertNotIn('of before', self.act('sweep')[1])     # those that were set aside stay
+
+    def test_runs_of_sources_that_were_not_committed_are_played_anew(self):
+        with mock.patch.object(records, 'changed', return_value=['coupler/hub.cpp']):
+            self.act('sweep')
+            self.assertIn('2 runs of before', self.act('sweep')[1])
+        self.assertIn('2 runs of before', self.act('sweep')[1])
+        self.assertNotIn('of before', self.act('sweep')[1])
+
+    def test_the_time_of_a_part_is_not_recorded_for_the_whole(self):
+        self.assertIn('processor: ', self.recorded())
+        shutil.rmtree(self.folder / 'out/sweep/column/seed-2')
+        self.assertEqual(self.recorded(), f'    recorded: {{commit: "0123456789", date: {datetime.date.today()}}}')
+        self.assertEqual(self.act(tree={'sweep': {'full': {'recorded': {'commit': '0123456789', 'date': '2026-01-02'}}}})[0], 0)
+
+    def test_runs_that_others_play_are_not_judged(self):
+        self.act('sweep')
+        self.write('out/sweep/column/seed-2/history.csv', 'step,time\n0,0\n')
+        with open(self.folder / 'out/sweep/column/seed-2/lock', 'wb') as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            code, told = self.act('sweep')
+        self.assertEqual(code, 2)
+        self.assertIn('column/seed-2 is not done, and cannot be judged: it is being played', told)
+        self.assertNotIn('FAILS', told)
+
+    def test_what_cannot_be_judged_does_not_keep_others_from_being_played(self):
+        shutil.rmtree(self.folder / 'made-up/column/seed-2')
+        code, told = self.act('sweep', 'falling', tree={**self.tree, **TREE})
+        self.assertEqual(code, 2)
+        self.assertIn('falling: 2 of 2 numbers hold', told)
+
+    def test_the_time_is_not_recorded_where_another_call_has_played_too(self):
+        def play(line, source):
+            records.save_played(self.folder / 'out/sweep', records.Played(source, None, None, None, 1))
+            return records.Played(source, subprocess.run(line).returncode, 1.0, 2.0)
+        with mock.patch.object(playing, 'play', play):
+            self.assertNotIn('processor', self.recorded())
+
+    def test_runs_that_are_not_there_are_not_judged(self):
+        shutil.rmtree(self.folder / 'made-up/column/seed-2')
+        code, told = self.act('sweep')
+        self.assertEqual(code, 2)
+        self.assertIn('it is not there', told)
+
+    def test_a_run_that_is_being_played_is_not_set_aside(self):
+        self.act('sweep')
+        self.change('seed-1', versions={'turbidite': '0.0.9'})
+        with open(self.folder / 'out/sweep/column/seed-1/lock', 'wb') as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            code, told = self.act('sweep')
+        self.assertEqual(code, 2)
+        self.assertIn('seed-1 is being played', told)
+
+
 class Playing(unittest.TestCase):
+    def test_a_request_to_end_is_passed_on(self):
+        """As a batch system sends it."""
+        begin = ('import os, signal, time\nsignal.signal(signal.SIGTERM, lambda *_: os._exit(143))\n'
+                 f'os.kill({os.getpid()}, signal.SIGTERM)\ntime.sleep(60)')
+        self.assertEqual(playing.play([sys.executable, '-c', begin], None).code, 143)
+
     def test_what_a_program_took_is_its_own(self):
         """A large one before does not count."""
         large = playing.play([sys.executable, '-c', 'x = bytearray(200_000_000)'], None)
@@ -317,6 +507,13 @@ class Playing(unittest.TestCase):
         self.assertGreater(large.memory, 200.0)
         self.assertLess(small.memory, 100.0)
         self.assertGreater(small.processor, 0.02)
+
+    def test_the_memory_of_the_gallery_is_not_that_of_the_program(self):
+        self.assertIn('numpy', sys.modules)
+        self.assertLess(playing.play(['/bin/true'], None).memory, 15.0)
+
+    def test_a_program_that_is_not_there_has_failed(self):
+        self.assertEqual(playing.play(['/no/such/program'], None).code, 1)
 
 
 if __name__ == '__main__':

@@ -97,8 +97,16 @@ TEST_F(JobTest, NamesAProgramThatIsNotThere) {
         FAIL() << "a missing program ran";
     } catch (const Failure& failure) {
         EXPECT_EQ(failure.code(), ExitCode::participant_failed);
-        EXPECT_NE(std::string(failure.what()).find("turbidite-no-such-program"), std::string::npos);
+        const std::string text = failure.what();
+        EXPECT_NE(text.find("turbidite-no-such-program cannot be started: No such file"),
+                  std::string::npos)
+            << text;
     }
+}
+
+// A shell ends so when it finds no command, and mpirun as the program that ends first.
+TEST_F(JobTest, AStatusIsThatOfTheProgram) {
+    EXPECT_EQ(run("exit 127").status, 127);
 }
 
 TEST_F(JobTest, KillsAProgramThatIsOverdue) {

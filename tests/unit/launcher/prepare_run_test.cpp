@@ -77,6 +77,15 @@ TEST(PrepareRun, ForceTouchesNoFolderWithoutARun) {
     EXPECT_TRUE(fs::exists(scratch.path() / "home/logs/diary.log"));
 }
 
+// It may be anything: notes, another program's list of versions.
+TEST(PrepareRun, AFileCalledLockOfSomebodysOwnStays) {
+    const ScratchFolder scratch;
+    scratch.write("mine/lock", "data");
+    scratch.write("mine/notes.txt", "mine");
+    EXPECT_SAYS(refusal({.out = scratch.path() / "mine"}), "lock has content");
+    EXPECT_TRUE(fs::exists(scratch.path() / "mine/lock"));
+}
+
 // `turbidite new` writes a case.yaml, and grains of one's own may lie beside it.
 TEST(PrepareRun, ForceTouchesNoCaseThatSomebodyHasWritten) {
     const ScratchFolder scratch;

@@ -41,6 +41,21 @@ TEST(RunLock, ThatCannotBeOpenedIsNoFreeFolder) {
         }
 }
 
+TEST(RunLock, AFileOfThisNameWithContentIsSomebodysOwn) {
+    const ScratchFolder scratch;
+    scratch.write(RunLock::file, "data");
+    EXPECT_THROW(RunLock::take(scratch.path()), Failure);
+    EXPECT_EQ(fs::file_size(scratch.path() / RunLock::file), 4U);
+    fs::remove(scratch.path() / RunLock::file);
+    { const auto lock = RunLock::take(scratch.path()); }
+    EXPECT_FALSE(fs::exists(scratch.path() / RunLock::file)) << "its own";
+    {  // Written while it was held.
+        const auto lock = RunLock::take(scratch.path());
+        scratch.write(RunLock::file, "data");
+    }
+    EXPECT_TRUE(fs::exists(scratch.path() / RunLock::file));
+}
+
 TEST(SetAside, KeepsEverythingUnderTheFirstFreeName) {
     const ScratchFolder scratch;
     scratch.write("run/history.csv", "a");

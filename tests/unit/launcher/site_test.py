@@ -4,6 +4,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -81,6 +82,38 @@ class Site(unittest.TestCase):
         version = re.search(r'project\(\w+ VERSION ([\d.]+)', (ROOT / 'CMakeLists.txt').read_text())[1]
         shown = re.search(r'id="projectnumber">&#160;([^<]*)<', (self.site / 'api/index.html').read_text())[1]
         self.assertRegex(shown, rf'^{re.escape(version)}( \([0-9a-f]+\))?$')
+
+
+class Fresh(unittest.TestCase):
+    """As `turbidite docs` shows the site in a checkout."""
+
+    def shown(self, site):
+        with tempfile.TemporaryFile('w+') as said, \
+                subprocess.Popen(['/usr/bin/python3', '-B', SCRIPT, 'fresh', ROOT, site], stdout=subprocess.PIPE, stderr=said,
+                                 text=True) as server:
+            clock = threading.Timer(120, server.kill)
+            clock.start()
+            found = re.search(r'http://127\.0\.0\.1:\d+/', server.stdout.readline())
+            page = found and urllib.request.urlopen(found[0] + 'index.html').read().decode()
+            server.send_signal(signal.SIGINT)
+            clock.cancel()
+            said.seek(0)
+            self.assertTrue(page, said.read())
+        return page
+
+    def test_where_nothing_may_be_written(self):
+        self.assertIn('OpenFOAM', self.shown('/proc/turbidite/site'))  # not even root may
+        self.assertIn('/proc/turbidite/site cannot be written', script('build', ROOT, '/proc/turbidite/site').stderr)
+
+    def test_what_was_there_is_replaced(self):
+        with tempfile.TemporaryDirectory() as folder:
+            site = Path(folder) / 'site'
+            site.mkdir()
+            (site / 'index.html').write_text('old')
+            (site / 'gone.html').write_text('old')
+            self.assertIn('OpenFOAM', self.shown(site))
+            self.assertFalse((site / 'gone.html').exists())
+            self.assertEqual([path.name for path in Path(folder).iterdir()], ['site'])
 
 
 class WithoutDoxygen(unittest.TestCase):

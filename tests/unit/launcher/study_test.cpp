@@ -94,6 +94,30 @@ set:
                   "grains.region"));
 }
 
+// As an override a text is read again, where " #" begins a comment and ": " a map.
+TEST_F(StudyTest, TextsInQuotesAreReadAsInACase) {
+    const char* const grains = "id,x,y,radius\n1,4,4,0.5\n";
+    for (const std::string name :
+         {"grains #2.csv", "a: b.csv", "~", "[1, 2]", "two \"words\".csv"}) {
+        scratch.write(name, grains);
+        const std::string file = "{adapter: standalone-nscd, file: '" + name + "'}";
+        const std::string rest =
+            "domain: {size: [8, 8]}\nfluid: {enabled: false}\ntime: {step: 0.01, end: 1}\n";
+        scratch.write("own.yaml", rest + "grains: " + file + "\n");
+        scratch.write("of.yaml", rest + "grains: {adapter: standalone-nscd}\n");
+        const std::string own = plan("{case: own.yaml}")[0].yaml;
+        EXPECT_EQ(plan("{case: of.yaml, set: {grains.file: '" + name + "'}}")[0].yaml, own);
+        const auto swept = plan("{case: of.yaml, sweep: {grains.file: ['" + name + "']}}");
+        EXPECT_EQ(swept[0].yaml, own);
+        EXPECT_EQ(swept[0].values[0].second, name);
+        const auto quick = plan_study(study("{case: of.yaml, quick: {grains.file: '" + name +
+                                            "'}, sweep: {grains.file: [none.csv]}}"),
+                                      {}, true);
+        EXPECT_EQ(quick[0].yaml, own);
+        EXPECT_EQ(quick[0].values[0].second, name);
+    }
+}
+
 TEST_F(StudyTest, HasPartsAndRunsWithoutASweep) {
     const auto runs = plan(R"(
 parts:
@@ -446,6 +470,14 @@ TEST_F(OtherVersion, PouredRunsAreKnownByTheirPlan) {
     EXPECT_EQ(state(), RunState::done);
     leave({poured, {"  rolling_friction: 0", "  rolling_friction: 0.125"}}, "of that version");
     EXPECT_EQ(state(), RunState::kept);
+    // Which pouring raises to limits.penetration.
+    leave({poured,
+           {"  rolling_friction: 0", "  rolling_friction: 0.125"},
+           {"  overlap: 0 ", "  overlap: 0.2 "}},
+          "of that version");
+    EXPECT_EQ(changes(), "contact.rolling_friction: 0.125, now 0 by default\n");
+    leave({poured, {"  overlap: 0 ", "  overlap: 0.1 "}}, "of that version");
+    EXPECT_SAYS(changes(), "grains.overlap: 0.1, now 0 by default");
     leave({poured, {"  friction: 0.3", "  friction: 0.4"}}, "of that version");
     EXPECT_EQ(state(), RunState::missing);
     leave({poured});
