@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "coupler/rigid/vec3.hpp"
+#include "granular_adapter/nscd/detection/detection.hpp"
 #include "polygons.hpp"
 
 namespace turbidite::nscd {
@@ -142,6 +143,52 @@ TEST(PlateJoints, WithALawOfARangeTheEndsStay) {
         engine.step(0.01);
         EXPECT_EQ(engine.points().size(), range > 0.0 ? 2u : 1u);
     }
+}
+
+// Of random squares and discs over the joint of two plates, flat or with a kink: the points that
+// are left out are at the joint, and the body comes nearer elsewhere or meets the joint by another
+// one.
+TEST(PlateJoints, LeaveOutPointsAtTheJointAlone) {
+    const ShapeTable shapes = {scenes::square_record(), {"disc", {}}};
+    const Detection detection(shapes, {});
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    int left_out = 0, kept = 0;
+    for (int n = 0; n < 20000; ++n) {
+        const double kink = n % 2 == 0 ? 0.0 : 0.5 * any(random);
+        const std::vector<Wall> walls{
+            plate(1, {-2, 0, 0}, {0, 0, 0}, 0.0),
+            plate(2, {0, 0, 0}, {2 * std::cos(kink), 2 * std::sin(kink), 0}, 0.0)};
+        Bodies bodies;
+        const double x = any(random), y = 0.5 + 0.1 * any(random), angle = 0.3 * any(random);
+        bodies.add(n % 3 == 0 ? scenes::disc(1, x, y)
+                              : scenes::unit_square(shapes, 1, x, y, angle));
+        bodies.shape[0] = n % 3 == 0 ? 1 : 0;
+        const auto found = [&](bool joined) {
+            return detection.ordered_points({bodies, walls, {0, -1, 0}, 0.3, 0.0, joined}).points;
+        };
+        const auto all = found(false), some = found(true);
+        const auto stays = [&](const ContactPoint& point) {
+            return std::any_of(some.begin(), some.end(), [&](const ContactPoint& p) {
+                return p.wall == point.wall && p.feature == point.feature && p.gap == point.gap;
+            });
+        };
+        const auto is_at_joint = [&](const ContactPoint& p) {
+            return norm(bodies.position[0] + p.arm_b - p.gap * p.normal) < 1e-9;
+        };
+        for (const ContactPoint& point : all) {
+            kept += stays(point), left_out += !stays(point);
+            if (stays(point)) continue;
+            EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const ContactPoint& p) {
+                return p.wall == point.wall && is_at_joint(p) && !stays(p);
+            })) << n;
+            EXPECT_TRUE(std::any_of(some.begin(), some.end(), [&](const ContactPoint& p) {
+                return p.gap <= point.gap + 1e-12;
+            })) << n;
+        }
+    }
+    EXPECT_GT(left_out, 1000);
+    EXPECT_GT(kept, 10000);
 }
 
 }  // namespace

@@ -144,5 +144,31 @@ TEST(PolygonWall, PlateAgreesWithExhaustion) {
     EXPECT_GT(seen, 2000);
 }
 
+// A rectangle with a small chamfer tips over the chamfer's upper corner onto its long side, whose
+// other end closes within the step although both corners of the chamfer are lower.
+TEST(PolygonWall, AShortSideHidesNoCorner) {
+    std::size_t most = 0;
+    for (const double chamfer : {0.001, 0.003, 0.01})
+        for (const double spin : {0.5, 1.0, 2.0, 4.0}) {
+            const ShapeTable shapes = {
+                scenes::polygon_record({0, 0, 1 - chamfer, 0, 1, chamfer, 1, 0.5, 0, 0.5})};
+            EngineSettings settings = scenes::exact(0.0, 1e-12);
+            Engine engine(settings, shapes, {scenes::floor(0.0)});
+            // The circumscribed circle has the shape's size: that of the rectangle, nearly.
+            engine.bodies().add(
+                scenes::polygon(shapes, 0, 1, 0.0, 0.7, 0.5 * std::hypot(1.0, 0.5), -0.3));
+            engine.bodies().twist[0].spin = {0.0, 0.0, spin};
+            double deepest = 0.0;
+            for (int n = 0; n < 400; ++n) {
+                engine.step(0.01);
+                most = std::max(most, engine.points().size());
+                engine.move(0.01);
+                deepest = std::max(deepest, engine.max_penetration());
+            }
+            EXPECT_LT(deepest, 1e-4) << chamfer << " " << spin;
+        }
+    EXPECT_GE(most, 3u);
+}
+
 }  // namespace
 }  // namespace turbidite::nscd

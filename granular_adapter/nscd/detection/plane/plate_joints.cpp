@@ -61,4 +61,11 @@ bool PlateJoints::is_nearest(std::int32_t wall, std::size_t end, const Vec3& nor
                         [&](const Vec3& d) { return dot(normal, d) > leads_nearer; });
 }
 
+bool PlateJoints::is_valley(std::int32_t wall, std::size_t end, const Vec3& normal) const {
+    if (onward_.empty()) return false;
+    const std::vector<Vec3>& onward = onward_[static_cast<std::size_t>(wall)][end];
+    return std::any_of(onward.begin(), onward.end(),
+                       [&](const Vec3& d) { return dot(normal, d) > -leads_nearer; });
+}
+
 }  // namespace turbidite::nscd

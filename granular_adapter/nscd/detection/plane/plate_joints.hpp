@@ -28,6 +28,10 @@ class PlateJoints {
     /// for that at -half_length along e_z x n, 1 for the other.
     bool is_nearest(std::int32_t wall, std::size_t end, const Vec3& normal) const;
 
+    /// Whether a plate goes on from an end, straight or upwards on the side of a normal. Below such
+    /// a valley a corner may be beyond the ends of both plates.
+    bool is_valley(std::int32_t wall, std::size_t end, const Vec3& normal) const;
+
  private:
     /// By wall and end, the directions of other plates from there, unit; empty if no plates meet.
     std::vector<std::array<std::vector<Vec3>, 2>> onward_;

@@ -90,6 +90,24 @@ bool leads_on(const WallView& view, const ManifoldPoint& p) {
     return !inside && !view.placed->plates.is_nearest(view.wall_index, at > 0.0, normal);
 }
 
+/// The corners over a plate, whose side holds them with this normal; in a valley also those that
+/// are deeper than they are beyond the end.
+void corners_over(const WallView& view, const Vec3& normal, std::vector<ContactPoint>& points) {
+    const PolygonView polygon = view.placed->polygons[view.body];
+    const Vec3 offset = view.bodies.position[view.body] - view.wall.point;
+    for (int k = 0; k < polygon.corners; ++k) {
+        const Vec3 arm{polygon.x[k], polygon.y[k], 0.0};
+        const double gap = dot(normal, offset + arm);
+        const double at = dot(cross({0, 0, 1}, view.wall.normal), offset + arm);
+        const double beyond = std::abs(at) - view.wall.half_length;
+        if (gap < view.alert &&
+            (beyond <= 0.0 ||
+             (beyond <= -gap && view.placed->plates.is_valley(view.wall_index, at > 0.0, normal))))
+            points.push_back({-1, view.body, view.wall_index, feature_of(k, true), gap, normal,
+                              Vec3{}, arm, 0.0, 1});
+    }
+}
+
 void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
     const Vec3 offset = view.bodies.position[view.body] - view.wall.point;
     // A plate holds a body on the side on which its centre lies.
@@ -98,10 +116,14 @@ void polygon_segment(const WallView& view, std::vector<ContactPoint>& points) {
     const Manifold manifold =
         polygon_manifold(plate.view(view.wall.half_length), view.placed->polygons[view.body],
                          offset[0], offset[1], view.alert);
+    // Over a plate's end the shortest way out of it may be along it. Where another plate goes on
+    // there is no such way.
+    if (manifold.count > 0 && leads_on(view, manifold.points[0]))
+        return corners_over(view, sign * view.wall.normal, points);
     for (int i = 0; i < manifold.count; ++i) {
         const ManifoldPoint& p = manifold.points[static_cast<std::size_t>(i)];
-        const Vec3 normal{p.nx, p.ny, 0.0}, middle{p.x, p.y, 0.0};
         if (leads_on(view, p)) continue;
+        const Vec3 normal{p.nx, p.ny, 0.0}, middle{p.x, p.y, 0.0};
         // From the middle of the gap to the surface of the body, where arms at walls end.
         const Vec3 arm = middle + 0.5 * p.gap * normal - offset;
         // Seen from behind, the corners of the plate are exchanged.
@@ -118,8 +140,8 @@ void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points)
     const auto gap = [&](int k) {
         return centre + normal[0] * polygon.x[k] + normal[1] * polygon.y[k];
     };
-    // The lowest corner, and the lower of its neighbours: no other corner of a convex polygon can
-    // be among the two lowest.
+    // The side on which it would lie: from the lowest corner to the lower of its neighbours, since
+    // no other corner of a convex polygon can be among the two lowest.
     int lowest = 0;
     for (int k = 1; k < polygon.corners; ++k)
         if (gap(k) < gap(lowest)) lowest = k;
@@ -127,9 +149,10 @@ void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points)
     const int second = gap(before) < gap(after) ? before : after;
     const Vec3 side{polygon.x[second] - polygon.x[lowest], polygon.y[second] - polygon.y[lowest],
                     0};
-    // Each of two points stands for half the side.
+    // Each of its two ends stands for half of it. Beside a short side a third corner may close too
+    // when the polygon turns.
     const double length = gap(second) < view.alert ? 0.5 * norm(side) : 0.0;
-    for (const int k : {lowest, second})
+    const auto add = [&](int k, double stands_for) {
         if (gap(k) < view.alert)
             points.push_back({-1,
                               view.body,
@@ -139,8 +162,13 @@ void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points)
                               normal,
                               Vec3{},
                               {polygon.x[k], polygon.y[k], 0.0},
-                              length,
+                              stands_for,
                               1});
+    };
+    add(lowest, length);
+    add(second, length);
+    for (int k = 0; k < polygon.corners; ++k)
+        if (k != lowest && k != second) add(k, 0.0);
 }
 
 }  // namespace
