@@ -165,6 +165,27 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
     EXPECT_EQ(with({"coupling.scheme=joint", "grains.density_ratio=1.2"}), "");
 }
 
+// R = 0.4 D: (1 + 0.3/3.2)^5 = 1.565. grains.density_ratio is enough for spheres of D alone.
+TEST_F(SpaceCase, SmallSpheresOfAFileAreAsDenseAsTheFluidSeesThem) {
+    folder.write("small.csv", "id,x,y,z,radius\n101,10,9,5,0.4\n");
+    const auto said = [this](const std::string& scheme, std::vector<std::string> grains) {
+        for (const std::string set :
+             {"fluid.enabled=true", "fluid.reynolds=10", "fluid.cells_per_diameter=8",
+              "fluid.surface_shift=0.3", "grains.density_ratio=1.5"})
+            grains.push_back(set);
+        grains.push_back("coupling.scheme=" + scheme);
+        return refusal("", grains);
+    };
+    const std::vector<std::string> alone{"grains.file=small.csv", "grains.count=~"};
+    const std::vector<std::string> more{"grains.extra_file=small.csv", "grains.count=1",
+                                        "grains.region=[6, 6, 6]"};
+    for (const auto& grains : {alone, more}) {
+        for (const char* scheme : {"split", "sub-iterated"})
+            EXPECT_SAYS(said(scheme, grains), "grain 101: density = 1.5") << scheme;
+        EXPECT_EQ(said("joint", grains), "");
+    }
+}
+
 TEST_F(SpaceCase, FilmsNeedAFluidSpheresAndTheContactEngine) {
     const std::vector<std::string> wet{"fluid.enabled=true", "fluid.reynolds=10",
                                        "fluid.cells_per_diameter=8", "contact.film=lubrication"};
