@@ -128,6 +128,28 @@ TEST_F(FluidProgramChoice, IsOfTheForecast) {
     EXPECT_GT(predicted_disk(by_openfoam) - predicted_disk(by_box), mesh);
 }
 
+/// Growth of the peak of resident memory with the cells, in bytes per cell.
+TEST_F(FluidProgramChoice, BoxIsForeseenWithTheMemoryThatWasMeasured) {
+    const auto per_cell = [this](const char* order, const char* splitting, const char* ranks) {
+        const Settings s = load("", {"fluid.program=box", std::string("fluid.time_scheme=") + order,
+                                     std::string("fluid.splitting=") + splitting,
+                                     std::string("fluid.ranks=") + ranks,
+                                     "fluid.transport_scheme=Gauss limitedLinearV 1"})
+                               .settings;
+        return (1e9 * fluid_memory(s) - 5e7) / fluid_cells(s);
+    };
+    const char *first = "first-order", *second = "second-order";
+    const char *plain = "marchuk-yanenko", *rigid = "explicit-multiplier";
+    EXPECT_GE(per_cell(first, plain, "1"), 87.0);
+    EXPECT_GE(per_cell(first, plain, "2"), 123.0);
+    EXPECT_GE(per_cell(first, plain, "4"), 125.0);
+    EXPECT_GE(per_cell(second, plain, "1"), 207.0) << "in several parts";
+    EXPECT_GE(per_cell(second, plain, "2"), 238.0);
+    EXPECT_GE(per_cell(second, rigid, "1"), 255.0);
+    EXPECT_GE(per_cell(second, rigid, "2"), 292.0);
+    EXPECT_LT(per_cell(second, rigid, "2"), 1.25 * 292.0);
+}
+
 TEST_F(FluidProgramChoice, StaysInTheResolvedCase) {
     let_openfoam_be(false);
     const std::string yaml = load().yaml;
