@@ -43,14 +43,15 @@ void set_transport(BoxFluid& fluid, const Settings& settings) {
     words >> gauss >> scheme;
     if (gauss == "Gauss") fluid.central = central_share(scheme);
     if (fluid.central) return;
-    double limiter = 0.0;
-    if (gauss != "Gauss" || scheme != "limitedLinearV" || !(words >> limiter))
+    std::optional<double> limiter;
+    if (double k = 0.0; gauss == "Gauss" && scheme == "limitedLinearV" && words >> k)
+        limiter = limiter_of_steps(k);
+    if (!limiter)
         throw Failure(ExitCode::bad_input,
                       "fluid.transport_scheme = " + settings.text("fluid.transport_scheme") +
-                          " is not known by fluid.program = box; use Gauss limitedLinearV 1, "
-                          "linear, LUST grad(U) or linearUpwind grad(U)");
-    // 2/k is needed, and k may be 0: at least OpenFOAM's SMALL, as in makeFluidStep.cpp.
-    fluid.limiter = std::max(limiter, 1e-15);
+                          " is not known by fluid.program = box; use Gauss limitedLinearV k "
+                          "with k from 0 to 1, linear, LUST grad(U) or linearUpwind grad(U)");
+    fluid.limiter = *limiter;
 }
 
 BoxFluid fluid_of(const CellGrid& grid, const RunValues& run, const Settings& settings) {

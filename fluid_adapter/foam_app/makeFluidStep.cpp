@@ -56,10 +56,9 @@ std::optional<TransportMethod> transport_on_rows(const FluidFields& fields) {
         return method;
     }
     if (name != "limitedLinearV") return std::nullopt;
-    const double k = Foam::readScalar(scheme);
-    if (k < 0.0 || k > 1.0) return std::nullopt;  // refused by OpenFOAM
-    // 2/k is needed, and k may be 0.
-    method.limiter = std::max(k, Foam::SMALL);
+    const std::optional<double> limiter = limiter_of_steps(Foam::readScalar(scheme));
+    if (!limiter) return std::nullopt;
+    method.limiter = *limiter;
     return method;
 }
 

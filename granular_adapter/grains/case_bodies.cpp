@@ -71,8 +71,8 @@ std::optional<GrainId> first_light_grain(const RunValues& run, const ShapeTable&
 
 void refuse_light_grain(GrainId id) {
     throw std::runtime_error(grain(id) +
-                             " is not denser than the fluid: without the fluid's responses nothing "
-                             "gives it an inertia; use coupling.scheme: joint");
+                             " is not denser than what the fluid sees of it: without the fluid's "
+                             "responses nothing gives it an inertia; use coupling.scheme: joint");
 }
 
 std::vector<GrainState> grain_states(const nscd::Bodies& bodies) {

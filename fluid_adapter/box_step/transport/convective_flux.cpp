@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fluid_adapter/box_step/transport/convective_flux.hpp"
 
+#include <algorithm>
+
 #include "fluid_adapter/box_step/row_work.hpp"
 
 namespace turbidite {
@@ -98,6 +100,11 @@ std::optional<double> central_share(const std::string& scheme) {
     if (scheme == "LUST") return 0.75;
     if (scheme == "linearUpwind") return 0.0;
     return std::nullopt;
+}
+
+std::optional<double> limiter_of_steps(double k) {
+    if (!(k >= 0.0 && k <= 1.0)) return std::nullopt;
+    return std::max(k, 1e-15);
 }
 
 void blended_flux(int count, double central, const FacePlace& face, const double* flux,

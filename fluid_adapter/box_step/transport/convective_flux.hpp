@@ -60,6 +60,10 @@ void convective_flux(int count, double two_by_k, const FacePlace& face, const do
 /// LUST, linearUpwind; none for others.
 std::optional<double> central_share(const std::string& scheme);
 
+/// k of limitedLinearV as steps take it: 2/k is needed, and k may be 0, at least OpenFOAM's SMALL.
+/// None outside 0 to 1, where OpenFOAM refuses it.
+std::optional<double> limiter_of_steps(double k);
+
 /// With the share `central` of linear interpolation.
 void blended_flux(int count, double central, const FacePlace& face, const double* flux,
                   const VelocityAcross& u, const CarriedRows& carried);

@@ -10,6 +10,7 @@
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/output/measures/courant_limit.hpp"
 #include "coupler/rigid/vec3.hpp"
+#include "launcher/case/forecast/prescribed_speed.hpp"
 
 namespace turbidite {
 namespace {
@@ -49,9 +50,9 @@ double forecast_courant(const ResolvedCase& resolved) {
     const double ratio = settings.real("grains.density_ratio");
     const double fall =
         in_space(settings) ? speed_of_a_sphere(scales, ratio) : speed_of_a_disc(scales, ratio);
-    const double speed = std::max(fall, fastest_grain(resolved));
+    const double speed = std::max({fall, fastest_grain(resolved), fastest_prescribed(resolved)});
     const double cell = scales.diameter / settings.real("fluid.cells_per_diameter");
-    // |u| dt/h of the fastest grain; the flow around it may be faster.
+    // |u| dt/h of what moves fastest; the flow around it may be faster.
     return speed * settings.real("run.step") / cell;
 }
 

@@ -10,6 +10,7 @@
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/run_values.hpp"
+#include "coupler/protocol/scene/splitting.hpp"
 #include "launcher/case/forecast/gigabyte.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
@@ -27,7 +28,11 @@ constexpr double of_field_set = 56.0;     // velocity and multipliers 24 each, p
 constexpr double of_scalar_field = 8.0, of_vector_field = 24.0;
 constexpr double of_box_field_set = 16.0;  // velocity and pressure of the box program, 4 bytes each
 constexpr double of_slice = 20.0;          // p, U and covered, 4 bytes each
-constexpr double of_fluid_checkpoint = 60.0;
+
+// In checkpoints velocity and pressure have 8 bytes per number, too, and OpenFOAM's velocity three
+// numbers in the plane.
+constexpr double of_velocity_and_pressure = 32.0;
+constexpr double of_number = 8.0, of_label = 4.0;
 
 // Bytes per grain: of one output (grains and contacts, base64), of one checkpoint.
 constexpr double of_disc = 430.0, of_polygon = 700.0, of_sphere = 900.0;
@@ -55,6 +60,18 @@ double bytes_of_fields(const Settings& settings) {
     // The box program writes 4 bytes where OpenFOAM writes 8.
     if (fluid_program(settings) == FluidProgram::box) return of_box_field_set + 0.5 * more_bytes;
     return of_field_set + more_bytes;
+}
+
+/// Of one set: velocity and pressure, and what steps remember (BoxFluidStep::visit_memory), which
+/// is the flux beside the velocity's; in second order the last flux and the carried velocity, too;
+/// with rigid grains in pressure the pressure itself.
+double bytes_of_checkpoint(const Settings& settings) {
+    const double vector = of_number * (in_space(settings) ? 3.0 : 2.0);
+    const bool second_order = settings.text("fluid.time_scheme") == "second-order";
+    const bool labels = fluid_program(settings) == FluidProgram::openfoam;
+    return of_velocity_and_pressure + (labels ? of_label : 0.0) +
+           vector * (second_order ? 3.0 : 1.0) +
+           (splitting_of(settings).rigid_grains ? of_number : 0.0);
 }
 
 /// Of one output.
@@ -91,7 +108,7 @@ double checkpoints(const ResolvedCase& resolved) {
 double fluid_bytes(const Settings& settings, const RunValues& run, double sets) {
     const double per_cell = bytes_of_mesh(settings) +
                             bytes_of_fields(settings) * outputs(run.windows, run.fields_every) +
-                            of_fluid_checkpoint * sets;
+                            bytes_of_checkpoint(settings) * sets;
     return per_cell * fluid_cells(settings) +
            bytes_of_slices(settings) * outputs(run.windows, run.output_every);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
@@ -16,6 +17,7 @@
 #include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/case/grains/packing/random_packing.hpp"
 
 namespace turbidite {
 namespace {
@@ -102,6 +104,21 @@ double seen_radius(const Settings& settings, double radius) {
     return seen + settings.real("fluid.surface_shift") / cells;
 }
 
+/// Of a grain, over the fluid's: its own, or grains.density_ratio. Where that has been refused it
+/// is not judged again.
+std::function<double(const PlacedGrain&)> density_of_grains(const Settings& settings) {
+    const char* key = "grains.density_ratio";
+    const double ratio =
+        settings.has(key) ? settings.real(key) : std::numeric_limits<double>::infinity();
+    return [ratio](const PlacedGrain& g) { return g.density.value_or(ratio); };
+}
+
+/// Of what the rule of grains.density_ratio says nothing else has to be said.
+bool ratio_is_too_small(const Settings& settings) {
+    const char* key = "grains.density_ratio";
+    return settings.has(key) && settings.real(key) <= least_density(settings);
+}
+
 std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
     std::vector<GrainRule> rules;
     const double cells = settings.real("fluid.cells_per_diameter");
@@ -131,13 +148,14 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
                          *height, settings.text("fluid.stretch_from")),
              "Use a larger fluid.stretch_from, or fluid.allow_coarse: true."});
     // Effective mass and inertia must be above zero unless `joint` leaves them to the fluid.
+    const auto density = density_of_grains(settings);
     if (!find_scheme(settings.text("coupling.scheme")).needs_inertia())
         rules.push_back(
-            {[settings](const PlacedGrain& g) {
-                 return g.density && *g.density <= least_density(settings, g.radius) &&
-                        !g.prescribed;
+            {[settings, density, told = ratio_is_too_small(settings)](const PlacedGrain& g) {
+                 const bool judged = !g.prescribed && (g.density || !told);
+                 return judged && density(g) <= least_density(settings, g.radius);
              },
-             [](const PlacedGrain& g) { return fmt::format("density = {}", *g.density); },
+             [density](const PlacedGrain& g) { return fmt::format("density = {}", density(g)); },
              "Without coupling.scheme: joint, grains in a fluid must be denser than what it sees "
              "of them.",
              "Use coupling.scheme: joint, or a density above 1 (in space: (1 + fluid.surface_shift "
@@ -153,9 +171,7 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
 std::vector<GrainRule> rules_of_splitting(const Settings& settings, std::size_t grains) {
     if (splitting_of(settings).rigid_grains) return {};
     const double least = grains > 1 ? 0.5 : 0.25;
-    const auto density = [ratio = settings.real("grains.density_ratio")](const PlacedGrain& g) {
-        return g.density.value_or(ratio);
-    };
+    const auto density = density_of_grains(settings);
     return {{[=](const PlacedGrain& g) {
                  return !g.prescribed && density(g) < least * displaced_volume(settings, g.radius);
              },
@@ -233,6 +249,14 @@ double least_density(const Settings& settings, double radius) {
     // M > rho_f V(R_h) and, the stronger of both, I > 2/5 rho_f V(R_h) R_h^2; at least 1, since
     // buoyancy acts on V(R).
     return std::max(1.0, std::pow(seen_radius(settings, radius), 5));
+}
+
+double least_density(const Settings& settings) {
+    const auto given = [&settings](const char* key, double otherwise) {
+        return settings.has(key) ? settings.real(key) : otherwise;
+    };
+    return least_density(
+        settings, smallest_radius(given("grains.radius", 0.5), given("grains.size_ratio", 1.0)));
 }
 
 CaseProblems check_abilities(const StartGrains& start, const Settings& settings,

@@ -24,6 +24,9 @@ CaseProblems check_periods(const Packing& grains, const Settings& settings,
 /// larger than it is (fluid.surface_shift).
 double least_density(const Settings& settings, double radius);
 
+/// Of the smallest grain by grains.radius and grains.size_ratio; those of a file may be smaller.
+double least_density(const Settings& settings);
+
 /// V(R_h)/V of a grain of this radius [D]: what the fluid sees of it.
 double displaced_volume(const Settings& settings, double radius);
 

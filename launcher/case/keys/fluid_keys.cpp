@@ -214,7 +214,8 @@ Ruling splitting_has_what_it_needs(const Settings& s) {
                             needed.why, s.text(needed.key)),
                 fmt::format("Set {}: {}, or use {}.", needed.key, needed.value, papers_splitting)};
     const std::string& scheme = s.text("fluid.transport_scheme");
-    if (is_scheme_on_rows(scheme)) return std::nullopt;
+    // In space no splitting has other schemes (space_keys.cpp).
+    if (in_space(s) || is_scheme_on_rows(scheme)) return std::nullopt;
     return Objection{
         fmt::format("This splitting works on rows of a box, which know Gauss limitedLinearV, "
                     "linear, LUST and linearUpwind; fluid.transport_scheme = {}.",
@@ -554,8 +555,9 @@ std::vector<Rule> rules() {
          rows_can_stretch},
         {"fluid.cells_per_diameter", keys_of_memory(), mesh_fits_in_memory},
         {"fluid.splitting",
-         {"fluid.enabled", "coupling.scheme", "fluid.pressure_solver", "fluid.viscous_solver",
-          "fluid.decomposition", "fluid.time_scheme", "fluid.transport_scheme"},
+         {"dimension", "fluid.enabled", "coupling.scheme", "fluid.pressure_solver",
+          "fluid.viscous_solver", "fluid.decomposition", "fluid.time_scheme",
+          "fluid.transport_scheme"},
          splitting_has_what_it_needs},
         {"fluid.reynolds", {"scales.kind"}, reynolds_follows}};
     rules.insert(rules.end(), others.begin(), others.end());

@@ -7,7 +7,6 @@
 
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
-#include "launcher/case/keys/transport_schemes.hpp"
 
 namespace turbidite {
 namespace {
@@ -22,10 +21,6 @@ bool has_functions(const Settings& s) {
     return s.has("fluid.functions");
 }
 
-bool transports_otherwise(const Settings& s) {
-    return s.has("fluid.transport_scheme") && !is_scheme_on_rows(s.text("fluid.transport_scheme"));
-}
-
 /// What only OpenFOAM can do: the only list of it.
 struct Limit {
     const char* key;
@@ -36,8 +31,6 @@ struct Limit {
 constexpr Limit limits_of_box[] = {
     {"dimension", in_the_plane, "it plays boxes in space", "Use dimension: 3"},
     {"fluid.functions", has_functions, "function objects are OpenFOAM's", "Remove it"},
-    {"fluid.transport_scheme", transports_otherwise,
-     "it knows Gauss limitedLinearV, linear, LUST and linearUpwind", "Use Gauss LUST grad(U)"},
 };
 
 /// The first of them that the case needs; null if there is none.
@@ -104,8 +97,7 @@ KeySpec program_key() {
 }
 
 std::vector<Rule> program_rules() {
-    return {
-        {program_of_fluid, {"fluid.enabled", "dimension", "fluid.transport_scheme"}, box_can_play}};
+    return {{program_of_fluid, {"fluid.enabled", "dimension"}, box_can_play}};
 }
 
 std::string choose_program(Settings& settings) {

@@ -6,7 +6,6 @@
 #include "launcher/case/grains/grain_abilities.hpp"
 #include "launcher/case/grains/grain_forms.hpp"
 #include "launcher/case/grains/packing/packing.hpp"
-#include "launcher/case/grains/packing/random_packing.hpp"
 #include "launcher/case/grains/packing/space_lattice.hpp"
 #include "launcher/case/grains/start_grains.hpp"
 
@@ -109,15 +108,10 @@ Ruling lattice_has_one_size(const Settings& s) {
     return lattice_objection(s, "several sizes");
 }
 
-double smallest_radius_of(const Settings& s) {
-    return smallest_radius(s.has("grains.radius") ? s.real("grains.radius") : 0.5,
-                           s.has("grains.size_ratio") ? s.real("grains.size_ratio") : 1.0);
-}
-
 // Without the fluid's responses grains move with the inertia (1 - rho_f/rho_s) M, which must be
 // positive.
 Ruling light_grains_need_joint(const Settings& s) {
-    const double least = least_density(s, smallest_radius_of(s));
+    const double least = least_density(s);
     if (s.real("grains.density_ratio") > least || !s.flag("fluid.enabled") ||
         find_scheme(s.text("coupling.scheme")).needs_inertia())
         return std::nullopt;

@@ -9,6 +9,7 @@
 #include "coupler/protocol/scene/sides.hpp"
 #include "granular_adapter/contact_keys/contact_keys.hpp"
 #include "launcher/case/keys/key_groups.hpp"
+#include "launcher/case/keys/transport_schemes.hpp"
 
 namespace turbidite {
 namespace {
@@ -26,6 +27,17 @@ template <const char* const& key>
 Ruling is_direct(const Settings& s) {
     if (!is_wet_space(s) || s.text(key) == "FFT") return std::nullopt;
     return Objection{"In space the fluid is solved on rows of its box only.", "Use FFT."};
+}
+
+Ruling transport_is_on_rows(const Settings& s) {
+    const std::string& scheme = s.text("fluid.transport_scheme");
+    // Of what is no scheme its own rule has spoken.
+    if (!is_wet_space(s) || !read_transport_scheme(scheme).scheme || is_scheme_on_rows(scheme))
+        return std::nullopt;
+    return Objection{
+        "In space transport is on rows of the box, which know Gauss limitedLinearV, "
+        "linear, LUST and linearUpwind, not bounded.",
+        "Use Gauss LUST grad(U), or Gauss limitedLinearV 1."};
 }
 
 Ruling ranks_have_layers(const Settings& s) {
@@ -85,6 +97,7 @@ KeyGroup space_keys() {
         {"fluid.points", {"dimension", "fluid.enabled"}, points_are_interior},
         {pressure_solver, {"dimension", "fluid.enabled"}, is_direct<pressure_solver>},
         {viscous_solver, {"dimension", "fluid.enabled"}, is_direct<viscous_solver>},
+        {"fluid.transport_scheme", {"dimension", "fluid.enabled"}, transport_is_on_rows},
         {"fluid.decomposition", {"dimension", "fluid.enabled"}, ranks_have_layers}};
     add_profile_rules(rules, std::make_index_sequence<planar_sides>{});
     return {.keys = {}, .rules = std::move(rules)};

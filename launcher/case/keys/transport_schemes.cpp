@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
+#include "coupler/keys/key_value.hpp"
 #include "coupler/keys/nearest_name.hpp"
 
 namespace turbidite {
@@ -66,6 +68,12 @@ const TransportScheme& nearest_scheme(const std::string& name) {
     return transport_scheme_list()[at - names.begin()];
 }
 
+/// The parameter of a limiter is a number from 0 to 1.
+bool is_limiter(const std::string& word) {
+    const std::optional<double> k = parse_real(word);
+    return k && *k >= 0.0 && *k <= 1.0;
+}
+
 }  // namespace
 
 const std::vector<TransportScheme>& transport_scheme_list() {
@@ -87,6 +95,10 @@ SchemeChoice read_transport_scheme(const std::string& text) {
         return {nullptr, fmt::format("OpenFOAM 1912 has no scheme {}.", name), remedy};
     if (static_cast<int>(words.size()) <= nearest.words)
         return {nullptr, fmt::format("{} needs a parameter.", name), remedy};
+    if (nearest.kind == SchemeKind::limited && nearest.words == 1 && !is_limiter(words[1]))
+        return {nullptr,
+                fmt::format("The parameter of {} is a number from 0 to 1, not {}.", name, words[1]),
+                remedy};
     return {&nearest, {}, {}};
 }
 

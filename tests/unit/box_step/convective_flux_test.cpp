@@ -91,5 +91,13 @@ TEST(ConvectiveFlux, OfAUniformStreamIsExact) {
     }
 }
 
+TEST(Limiter, IsFrom0To1AsInOpenFoam) {
+    for (const double k : {-1.0, 2.0, std::nan("")}) EXPECT_FALSE(limiter_of_steps(k)) << k;
+    EXPECT_EQ(limiter_of_steps(0.5), 0.5);
+    EXPECT_EQ(limiter_of_steps(1.0), 1.0);
+    ASSERT_TRUE(limiter_of_steps(0.0));
+    EXPECT_TRUE(std::isfinite(2.0 / *limiter_of_steps(0.0)));
+}
+
 }  // namespace
 }  // namespace turbidite

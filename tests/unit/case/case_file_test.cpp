@@ -473,6 +473,18 @@ TEST_F(CaseFile, AnUnknownTransportSchemeIsAnsweredWithTheNearest) {
     EXPECT_EQ(refusal("", {set + "bounded Gauss upwind"}), "");
 }
 
+TEST_F(CaseFile, TheParameterOfALimiterIsFrom0To1) {
+    const auto said = [this](const std::string& name, const std::string& k) {
+        return refusal("", {"fluid.transport_scheme=Gauss " + name + " " + k});
+    };
+    for (const std::string name : {"limitedLinearV", "limitedLinear", "Gamma", "limitedCubicV"}) {
+        for (const char* k : {"0", "0.5", "1"}) EXPECT_EQ(said(name, k), "") << name << " " << k;
+        for (const std::string k : {"-1", "2", "x", "nan"})
+            EXPECT_SAYS(said(name, k),
+                        "a number from 0 to 1, not " + k + ". Use Gauss " + name + " 1.");
+    }
+}
+
 /// 2 nu/u^2 at u = 6 u_c, where jets of settling clouds begin: 2/(36 Re) = 0.00154 t_c at Re = 36.
 TEST_F(CaseFile, CentralTransportInFirstOrderIsRefusedBeyondItsStep) {
     const std::string scheme = "fluid.transport_scheme=Gauss linear";

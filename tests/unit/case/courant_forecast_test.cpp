@@ -45,6 +45,41 @@ TEST_F(CourantForecast, IsThatOfAFallingSphere) {
     EXPECT_NEAR(with("grains.file=fast.csv"), 5.0 * 0.01 * 8.0, 1e-12);
 }
 
+// 25 u_c dt/h = 4 with dt = 0.02 t_c and D/8.
+TEST_F(CourantForecast, IsThatOfPrescribedMotions) {
+    const std::string motion = "domain.motions.swing.";
+    const auto with = [&](std::vector<std::string> changes) {
+        changes.insert(changes.end(),
+                       {"dimension=3", "domain.size=[12, 12, 12]", "time.step=0.02"});
+        return load("", changes);
+    };
+    folder.write("one.csv", "id,x,y,z,motion\n1,6,6,6,swing\n");
+    const std::string grain = "grains.file=one.csv";
+    const std::vector<std::string> swing{grain, "grains.count=~", motion + "kind=harmonic",
+                                         motion + "amplitude=[3.979, 0, 0]", motion + "period=1"};
+    EXPECT_NEAR(forecast_courant(with(swing)), 4.0, 0.02);
+    EXPECT_SAYS(courant_warning(with(swing)), "the Courant number will be 4 or more");
+    // The surface of a sphere that turns, and a long run.
+    const std::vector<std::string> turn{grain, "grains.count=~", motion + "kind=constant",
+                                        motion + "spin=50", "time.end=1000"};
+    EXPECT_NEAR(forecast_courant(with(turn)), 4.0, 1e-9);
+    const std::vector<std::string> inflow{"domain.left=inflow", "domain.right=free",
+                                          "domain.left_motion=swing", motion + "kind=constant",
+                                          motion + "velocity=[25, 0, 0]"};
+    EXPECT_NEAR(forecast_courant(with(inflow)), 4.0, 1e-9);
+    const std::vector<std::string> lid{"domain.top_motion=swing", motion + "kind=constant",
+                                       motion + "velocity=[25, 0, 0]"};
+    EXPECT_NEAR(forecast_courant(with(lid)), 4.0, 1e-9);
+    // A drum about its own axis, whose ends are far from the pivot: R = 4 D.
+    folder.write(
+        "walls.csv",
+        "id,kind,x,y,z,ax,ay,az,r1,thickness,wx,wy,wz\n1,cylinder,6,6,2,0,0,8,4,0.5,0,0,6.25\n");
+    EXPECT_NEAR(forecast_courant(with({"domain.walls_file=walls.csv", "grains.count=1",
+                                       "grains.cylinder=[6, 6, 3, 6, 6, 9, 3]"})),
+                4.0, 1e-9);
+    EXPECT_EQ(courant_warning(with({})), "");
+}
+
 TEST_F(CourantForecast, WarnsWithTheStepThatWouldDo) {
     EXPECT_EQ(courant_warning(load("")), "");
     const std::string warning = courant_warning(load("", {"time.step=0.5"}));

@@ -38,13 +38,39 @@ TEST_F(DiskCost, GrowsWithCellsAndOutputTimes) {
 }
 
 TEST_F(DiskCost, CountsTheLastWindowAndCheckpointsThatAreKept) {
-    const double set = 60.0 * cells + 900.0 * 15.0, none = bytes({"checkpoint.interval=0"});
+    const double set = 84.0 * cells + 900.0 * 15.0, none = bytes({"checkpoint.interval=0"});
     const double two = bytes();
     EXPECT_NEAR(two - none, 2.0 * set, 1.0) << "of the beginning and of the end";
     EXPECT_DOUBLE_EQ(bytes({"checkpoint.interval=1"}), two) << "keep is 2";
     EXPECT_NEAR(bytes({"checkpoint.interval=4", "checkpoint.keep=9"}) - none, 4.0 * set, 1.0);
     EXPECT_DOUBLE_EQ(bytes({"checkpoint.windows=100", "checkpoint.interval=0"}), two);
     EXPECT_GT(bytes({"output.fields_interval=7.5"}), bytes({"output.fields_interval=10"}));
+}
+
+/// Of one cell; the sizes of the files of states. Those of a box program in space are 56.2 and
+/// 112.4, with a layer more of faces than of cells.
+TEST_F(DiskCost, ACheckpointHasWhatStepsRemember) {
+    const auto per_cell = [this](std::vector<std::string> set, double count) {
+        set.emplace_back("checkpoint.keep=1");
+        const double with = bytes(set);
+        set.emplace_back("checkpoint.interval=0");
+        return (with - bytes(set) - 900.0 * 15.0) / count;
+    };
+    const std::string first = "fluid.time_scheme=first-order",
+                      rigid = "fluid.splitting=explicit-multiplier";
+    EXPECT_NEAR(per_cell({first}, cells), 52.0, 0.1);
+    EXPECT_NEAR(per_cell({rigid}, cells), 92.0, 0.1);
+    const auto in_space = [&](std::vector<std::string> set) {
+        for (const char* more : {"dimension=3", "domain.size=[6, 6, 6]",
+                                 "fluid.cells_per_diameter=8", "grains.adapter=standalone-nscd"})
+            set.emplace_back(more);
+        return per_cell(set, 48.0 * 48.0 * 48.0);
+    };
+    const std::string box = "fluid.program=box", openfoam = "fluid.program=openfoam";
+    EXPECT_NEAR(in_space({box, first}), 56.0, 0.1);
+    EXPECT_NEAR(in_space({box}), 104.0, 0.1);
+    EXPECT_NEAR(in_space({box, rigid}), 112.0, 0.1);
+    EXPECT_NEAR(in_space({openfoam, rigid}), 116.0, 0.1);
 }
 
 TEST_F(DiskCost, DryRunsWriteGrainsAlone) {

@@ -25,6 +25,7 @@ TEST_F(FluidLimits, LightGrainsInAFluidNeedJoint) {
     EXPECT_EQ(refusal("", {"grains.density_ratio=0.5", "fluid.enabled=false"}), "");
     for (const char* ratio : {"grains.density_ratio=0.5", "grains.density_ratio=1"}) {
         EXPECT_SAYS(refusal("", {ratio, "coupling.scheme=split"}), "Use coupling.scheme: joint");
+        EXPECT_SAYS(refusal("", {ratio, "coupling.scheme=split"}), "1 error, nothing was started");
         EXPECT_EQ(refusal("", {ratio, "coupling.scheme=joint"}), "");
     }
     EXPECT_SAYS(refusal("", {"grains.density_ratio=0", "fluid.enabled=false"}),

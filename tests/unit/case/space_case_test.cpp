@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/run_values.hpp"
@@ -17,6 +18,7 @@
 #include "launcher/case/grains/packing/space_lattice.hpp"
 #include "launcher/case/grains/packing/space_packing.hpp"
 #include "launcher/case/grains/population.hpp"
+#include "launcher/case/keys/transport_schemes.hpp"
 #include "tests/unit/case/case_test.hpp"
 
 namespace turbidite {
@@ -163,6 +165,52 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
         with({"coupling.scheme=split", "grains.density_ratio=1.5", "grains.size_ratio=1.5"}),
         "a ratio above 1.5");
     EXPECT_EQ(with({"coupling.scheme=joint", "grains.density_ratio=1.2"}), "");
+}
+
+// As transport_on_rows (fluid_adapter/foam_app/makeFluidStep.cpp) and the box program take them.
+TEST_F(SpaceCase, TransportInSpaceIsOnRows) {
+    const auto said = [this](const std::string& scheme, const std::string& program) {
+        return refusal("", {"fluid.enabled=true", "fluid.reynolds=10", "fluid.cells_per_diameter=8",
+                            "fluid.splitting=marchuk-yanenko", "fluid.program=" + program,
+                            "fluid.transport_scheme=" + scheme});
+    };
+    const std::set<std::string> on_rows{"limitedLinearV", "linear", "LUST", "linearUpwind"};
+    for (const TransportScheme& scheme : transport_scheme_list()) {
+        const bool gradient = scheme.kind == SchemeKind::biased;
+        const std::string word = scheme.words == 0 ? "" : gradient ? " grad(U)" : " 1";
+        const std::string name = "Gauss " + scheme.name + word;
+        for (const char* program : {"openfoam", "box"}) {
+            if (on_rows.count(scheme.name) > 0)
+                EXPECT_EQ(said(name, program), "") << name;
+            else
+                EXPECT_SAYS(said(name, program), "In space transport is on rows") << name;
+            EXPECT_SAYS(said("bounded " + name, program), "Use Gauss LUST grad(U)") << name;
+        }
+    }
+    const std::string once = said("Gauss vanLeer", "box");
+    EXPECT_SAYS(once, "1 error");
+    EXPECT_EQ(once.find("fluid.program: openfoam"), std::string::npos) << once;
+}
+
+// R = 0.4 D: (1 + 0.3/3.2)^5 = 1.565. grains.density_ratio is enough for spheres of D alone.
+TEST_F(SpaceCase, SmallSpheresOfAFileAreAsDenseAsTheFluidSeesThem) {
+    folder.write("small.csv", "id,x,y,z,radius\n101,10,9,5,0.4\n");
+    const auto said = [this](const std::string& scheme, std::vector<std::string> grains) {
+        for (const std::string set :
+             {"fluid.enabled=true", "fluid.reynolds=10", "fluid.cells_per_diameter=8",
+              "fluid.surface_shift=0.3", "grains.density_ratio=1.5"})
+            grains.push_back(set);
+        grains.push_back("coupling.scheme=" + scheme);
+        return refusal("", grains);
+    };
+    const std::vector<std::string> alone{"grains.file=small.csv", "grains.count=~"};
+    const std::vector<std::string> more{"grains.extra_file=small.csv", "grains.count=1",
+                                        "grains.region=[6, 6, 6]"};
+    for (const auto& grains : {alone, more}) {
+        for (const char* scheme : {"split", "sub-iterated"})
+            EXPECT_SAYS(said(scheme, grains), "grain 101: density = 1.5") << scheme;
+        EXPECT_EQ(said("joint", grains), "");
+    }
 }
 
 TEST_F(SpaceCase, FilmsNeedAFluidSpheresAndTheContactEngine) {
