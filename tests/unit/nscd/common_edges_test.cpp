@@ -254,5 +254,34 @@ TEST(CommonEdges, JoinedRectanglesAreOneFloor) {
     EXPECT_LT(norm(places({floor_part(1, -3.6, 0.4, -5, 5)}, 4.0) - end), 1e-12);
 }
 
+// A sphere rolls from the floor of the box onto a ramp that begins there: what is left of its speed
+// is that along the ramp, with restitution as without, however far it was from the foot a step
+// before.
+TEST(CommonEdges, ARampOnTheFloorHasNoEdge) {
+    const double kink = std::numbers::pi / 9.0;
+    const Vec3 along{std::cos(kink), std::sin(kink), 0.0};
+    const Wall ramp =
+        scenes::rectangle(2, 2.5 * along, {-along[1], along[0], 0.0}, along, 2.5, 5.0);
+    for (const double start : {-1.0, -0.997, -1.007, -1.013}) {
+        Engine engine(scenes::exact_in_space(0.0, 1e-13), scenes::spheres,
+                      {scenes::floor(0.0), ramp});
+        engine.bodies().add(scenes::sphere(1, {start, 0.5, 0.3}));
+        engine.bodies().twist[0].velocity = {3.0, 0.0, 0.0};
+        int at_edge = 0;
+        for (int n = 0; n < 50; ++n) {
+            engine.step(0.01);
+            // Beside the foot the floor alone, or the faces of both.
+            for (const ContactPoint& point : engine.points())
+                at_edge += point.wall == 1 && point.feature != 0;
+            engine.move(0.01);
+        }
+        EXPECT_EQ(at_edge, 0);
+        const Vec3 u = engine.bodies().twist[0].velocity;
+        const double height = engine.bodies().position[0][1] - 0.5;
+        EXPECT_GT(height, 0.1);
+        EXPECT_NEAR(0.5 * dot(u, u) + height, 0.5 * std::pow(3.0 * std::cos(kink), 2), 0.05);
+    }
+}
+
 }  // namespace
 }  // namespace turbidite::nscd

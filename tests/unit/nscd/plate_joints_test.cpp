@@ -119,6 +119,27 @@ TEST(PlateJoints, AKinkTakesWhatItsAngleTakes) {
     EXPECT_NEAR(0.5 * before * before, 0.5 * std::pow(3.0 * std::cos(kink), 2) - height, 0.02);
 }
 
+// A square that cannot turn slides from a floor, a plate or the bottom of the box, onto a ramp:
+// what is left of its speed is that along the ramp.
+TEST(PlateJoints, ARampTakesWhatItsAngleTakes) {
+    const double kink = std::numbers::pi / 9.0;
+    const Vec3 top{5.0 * std::cos(kink), 5.0 * std::sin(kink), 0.0};
+    const Wall ramp = plate(2, {0, 0, 0}, top, 0.0);
+    for (const Wall& floor : {plate(1, {-4, 0, 0}, {0, 0, 0}, 0.0), scenes::floor(0.0)})
+        for (const double start : {-1.5, -1.497, -1.513, -1.505}) {
+            Engine engine = sliding({true, 0.0, 0.0, 0.0}, {floor, ramp});
+            engine.bodies().rotation_blocked[0] = 1;
+            engine.bodies().position[0][0] = start;
+            EXPECT_TRUE(scenes::run(engine, 0.6, 0.01));
+            const Vec3 u = engine.bodies().twist[0].velocity;
+            const double height = engine.bodies().position[0][1] - 0.5;
+            EXPECT_GT(height, 0.1) << "on the ramp";
+            // (u cos(kink))^2/2 is kept; a step on the way up, g dt, is not resolved.
+            EXPECT_NEAR(0.5 * dot(u, u) + height, 0.5 * std::pow(3.0 * std::cos(kink), 2), 0.05)
+                << start;
+        }
+}
+
 // A square in the corner of a floor and a plate that stands on it needs the foot of that plate,
 // where the floor leads on in both directions.
 TEST(PlateJoints, ASquareLiesInACornerOfPlates) {

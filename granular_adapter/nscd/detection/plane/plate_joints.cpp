@@ -20,6 +20,11 @@ bool is_plate(const Wall& wall) {
     return wall.form == WallForm::flat && has_ends(wall);
 }
 
+/// Whether plates may end on it: a plate, or a half-plane.
+bool is_planar(const Wall& wall) {
+    return wall.form == WallForm::flat;
+}
+
 /// e_z x n
 Vec3 along(const Wall& wall) {
     return {-wall.normal[1], wall.normal[0], 0.0};
@@ -35,13 +40,15 @@ void add_onward(const Wall& wall, const Vec3& place, double tolerance, std::vect
 }  // namespace
 
 PlateJoints::PlateJoints(const std::vector<Wall>& walls) {
-    if (std::count_if(walls.begin(), walls.end(), is_plate) < 2) return;
+    if (std::none_of(walls.begin(), walls.end(), is_plate)) return;
     onward_.resize(walls.size());
     for (std::size_t i = 0; i < walls.size(); ++i)
         for (std::size_t j = 0; j < walls.size(); ++j) {
             const Wall &own = walls[i], &other = walls[j];
-            if (i == j || !is_plate(own) || !is_plate(other)) continue;
-            const double tolerance = on_a_plate * std::max(size_of(own), size_of(other));
+            if (i == j || !is_plate(own) || !is_planar(other)) continue;
+            const double tolerance =
+                on_a_plate *
+                (is_plate(other) ? std::max(size_of(own), size_of(other)) : size_of(own));
             if (norm(other.point - own.point) > own.half_length + other.half_length + tolerance ||
                 own.half_thickness > other.half_thickness + tolerance)
                 continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Ends of plates that lie on other plates, or on images of the plate itself: there the surface goes
-// on. A body touches it where their distance has a local minimum, so at such an end only if it
-// comes no nearer along any of the plates that lead on from there:
+// Ends of plates that lie on other plates, on half-planes, or on images of the plate itself: there
+// the surface goes on. A body touches it where their distance has a local minimum, so at such an
+// end only if it comes no nearer along any of the plates that lead on from there:
 //
 //     n . d <= 0 for all d     n from the end to the body, d along a plate from the end
 //
@@ -21,7 +21,7 @@ namespace turbidite::nscd {
 class PlateJoints {
  public:
     PlateJoints() = default;
-    /// Of all segments, wherever they are now.
+    /// Of all segments and half-planes, wherever they are now.
     explicit PlateJoints(const std::vector<Wall>& walls);
 
     /// Whether a body may touch an end of a plate, from which the unit normal leads to it. `end`: 0

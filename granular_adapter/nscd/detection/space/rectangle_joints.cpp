@@ -24,12 +24,24 @@ double half_diagonal(const Wall& wall) {
     return std::hypot(wall.half_length, wall.half_width);
 }
 
+/// Of a half-space there is no size.
 double tolerance(const Wall& one, const Wall& other) {
-    return on_a_rectangle * std::max(size_of(one), size_of(other));
+    return on_a_rectangle *
+           (is_rectangle(other) ? std::max(size_of(one), size_of(other)) : size_of(one));
 }
 
-/// The place of a rectangle that is nearest to a point.
+/// Whether a rectangle may end on another wall, which covers its edge.
+bool may_meet(const Wall& own, const Wall& other) {
+    if (!is_rectangle(own) || other.form == WallForm::round) return false;
+    const double rounding = tolerance(own, other);
+    if (own.half_thickness > other.half_thickness + rounding) return false;
+    return !is_rectangle(other) ||
+           norm(other.point - own.point) <= half_diagonal(own) + half_diagonal(other) + rounding;
+}
+
+/// The place of a rectangle or half-space that is nearest to a point.
 Vec3 nearest_place(const Wall& wall, const Vec3& x) {
+    if (!is_rectangle(wall)) return x - signed_distance(wall, x) * wall.normal;
     const Vec3 arm = x - wall.point, across = cross(wall.normal, wall.side);
     return wall.point +
            std::clamp(dot(wall.side, arm), -wall.half_length, wall.half_length) * wall.side +
@@ -39,28 +51,22 @@ Vec3 nearest_place(const Wall& wall, const Vec3& x) {
 }  // namespace
 
 RectangleJoints::RectangleJoints(const std::vector<Wall>& walls) {
-    if (std::count_if(walls.begin(), walls.end(), is_rectangle) < 2) return;
+    if (std::none_of(walls.begin(), walls.end(), is_rectangle)) return;
     others_.resize(walls.size());
     for (std::size_t i = 0; i < walls.size(); ++i)
-        for (std::size_t j = 0; j < walls.size(); ++j) {
-            const Wall &own = walls[i], &other = walls[j];
-            if (i == j || !is_rectangle(own) || !is_rectangle(other)) continue;
-            const double rounding = tolerance(own, other);
-            const double apart = norm(other.point - own.point);
-            if (apart <= half_diagonal(own) + half_diagonal(other) + rounding &&
-                own.half_thickness <= other.half_thickness + rounding)
-                others_[i].push_back(other);
-        }
+        for (std::size_t j = 0; j < walls.size(); ++j)
+            if (i != j && may_meet(walls[i], walls[j]))
+                others_[i].push_back({walls[j], tolerance(walls[i], walls[j])});
 }
 
 bool RectangleJoints::is_nearest(std::int32_t wall, const Vec3& place, const Vec3& offset) const {
     if (others_.empty()) return true;
     const auto& others = others_[static_cast<std::size_t>(wall)];
-    return std::none_of(others.begin(), others.end(), [&](const Wall& other) {
-        const double rounding = tolerance(other, other);
-        if (!is_on(other, place, rounding)) return false;
-        const Vec3 way = nearest_place(other, place + offset) - place;
-        return norm(way) > rounding && dot(way, offset) > nearer_along * norm(way) * norm(offset);
+    return std::none_of(others.begin(), others.end(), [&](const Other& other) {
+        if (!is_on(other.wall, place, other.rounding)) return false;
+        const Vec3 way = nearest_place(other.wall, place + offset) - place;
+        return norm(way) > other.rounding &&
+               dot(way, offset) > nearer_along * norm(way) * norm(offset);
     });
 }
 

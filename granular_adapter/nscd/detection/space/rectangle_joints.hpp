@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Edges of rectangles that lie on other rectangles, or on images of the rectangle itself: as with
-// plates of the plane (plane/plate_joints.hpp) a sphere touches such a place only if it comes no
-// nearer along the others from there, or it would rebound from the joint that it rolls over.
+// Edges of rectangles that lie on other rectangles, on half-spaces, or on images of the rectangle
+// itself: as with plates of the plane (plane/plate_joints.hpp) a sphere touches such a place only
+// if it comes no nearer along the others from there, or it would rebound from the joint that it
+// rolls over.
 #pragma once
 
 #include <vector>
@@ -14,7 +15,7 @@ namespace turbidite::nscd {
 class RectangleJoints {
  public:
     RectangleJoints() = default;
-    /// Of all rectangles, wherever they are now.
+    /// Of all rectangles and half-spaces, wherever they are now.
     explicit RectangleJoints(const std::vector<Wall>& walls);
 
     /// Whether a sphere may touch a place on the edge of a rectangle, its nearest one of this
@@ -22,8 +23,12 @@ class RectangleJoints {
     bool is_nearest(std::int32_t wall, const Vec3& place, const Vec3& offset) const;
 
  private:
-    /// By wall, the rectangles that may meet it and are at least as thick; empty if none do.
-    std::vector<std::vector<Wall>> others_;
+    struct Other {
+        Wall wall;
+        double rounding;  ///< of places on it [m]
+    };
+    /// By rectangle, what it may end on and that is at least as thick; empty without rectangles.
+    std::vector<std::vector<Other>> others_;
 };
 
 }  // namespace turbidite::nscd
