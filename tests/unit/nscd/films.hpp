@@ -3,6 +3,8 @@
 // What tests of films of liquid between spheres and between discs share.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include "spheres.hpp"
 
 namespace turbidite::nscd::scenes {
@@ -46,6 +48,32 @@ inline Engine sliding_layers(double slope, int dimension, double viscosity) {
             engine.bodies().twist.back().velocity = {0.5, 0.0, 0.0};
         }
     return engine;
+}
+
+/// A film between grains and floor changes neither what slides nor the coefficient of what slides:
+/// in the step after the first every contact with the floor has the lower one, and is at its limit.
+inline void expect_sliding_friction_below_films(int dimension) {
+    const double slope = 0.8, alpha = std::atan(slope);
+    Engine engine = scenes::sliding_layers(slope, dimension, 0.001);
+    engine.step(0.01);
+    engine.move(0.01);
+    int sliding = 0, films = 0;
+    for (int n = 1; n < 100; ++n) {
+        ASSERT_TRUE(engine.step(0.01).converged);
+        for (std::size_t k = 0; k < engine.points().size(); ++k) {
+            const ContactVector r = engine.carried()[k];
+            if (engine.points()[k].wall < 0 || !(r.n > 0.0)) continue;
+            ++sliding, films += r.n < engine.solution()[k].n;
+            EXPECT_EQ(engine.problem().contacts[k].friction, 0.3);
+            EXPECT_NEAR(tangential(r), 0.3 * r.n, 1e-12 * r.n);
+        }
+        engine.move(0.01);
+    }
+    EXPECT_GT(sliding, 700);
+    EXPECT_GT(films, 100) << "films carry a part";
+    double mean = 0.0;
+    for (const Twist& twist : engine.bodies().twist) mean += twist.velocity[0] / 32.0;
+    EXPECT_NEAR(mean, 0.5 + std::sin(alpha) - 0.3 * std::cos(alpha), 0.002);
 }
 
 /// Steps of 0.01; the report of the last.

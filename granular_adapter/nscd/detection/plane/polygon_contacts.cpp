@@ -90,6 +90,15 @@ bool leads_on(const WallView& view, const ManifoldPoint& p) {
     return !inside && !view.placed->plates.is_nearest(view.wall_index, at > 0.0, normal);
 }
 
+/// A corner of the body that a side of the wall with this normal holds.
+ContactPoint held_corner(const WallView& view, int k, double gap, const Vec3& normal,
+                         double length) {
+    const PolygonView polygon = view.placed->polygons[view.body];
+    const Vec3 arm{polygon.x[k], polygon.y[k], 0.0};
+    return {-1,     view.body, view.wall_index, feature_of(k, true), gap, normal, Vec3{}, arm,
+            length, 1};
+}
+
 /// The corners over a plate, whose side holds them with this normal; in a valley also those that
 /// are deeper than they are beyond the end.
 void corners_over(const WallView& view, const Vec3& normal, std::vector<ContactPoint>& points) {
@@ -103,8 +112,7 @@ void corners_over(const WallView& view, const Vec3& normal, std::vector<ContactP
         if (gap < view.alert &&
             (beyond <= 0.0 ||
              (beyond <= -gap && view.placed->plates.is_valley(view.wall_index, at > 0.0, normal))))
-            points.push_back({-1, view.body, view.wall_index, feature_of(k, true), gap, normal,
-                              Vec3{}, arm, 0.0, 1});
+            points.push_back(held_corner(view, k, gap, normal, 0.0));
     }
 }
 
@@ -153,17 +161,7 @@ void polygon_half_plane(const WallView& view, std::vector<ContactPoint>& points)
     // when the polygon turns.
     const double length = gap(second) < view.alert ? 0.5 * norm(side) : 0.0;
     const auto add = [&](int k, double stands_for) {
-        if (gap(k) < view.alert)
-            points.push_back({-1,
-                              view.body,
-                              view.wall_index,
-                              feature_of(k, true),
-                              gap(k),
-                              normal,
-                              Vec3{},
-                              {polygon.x[k], polygon.y[k], 0.0},
-                              stands_for,
-                              1});
+        if (gap(k) < view.alert) points.push_back(held_corner(view, k, gap(k), normal, stands_for));
     };
     add(lowest, length);
     add(second, length);
