@@ -2,19 +2,11 @@
 #include "granular_adapter/nscd/detection/plane/plate_joints.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "coupler/rigid/vec3.hpp"
+#include "granular_adapter/nscd/detection/wall_ends.hpp"
 
 namespace turbidite::nscd {
 namespace {
-
-// Of the size of the larger plate: rounding of places on it.
-constexpr double on_a_plate = 1e-9;
-
-// Cosine above which a plate leads nearer to a body: two points for one where it just does, so that
-// rounding never leaves none.
-constexpr double leads_nearer = 1e-9;
 
 bool is_plate(const Wall& wall) {
     return wall.form == WallForm::flat && has_ends(wall);
@@ -31,10 +23,10 @@ Vec3 along(const Wall& wall) {
 }
 
 /// Directions in which a plate leads on from a place on it.
-void add_onward(const Wall& wall, const Vec3& place, double tolerance, std::vector<Vec3>& onward) {
+void add_onward(const Wall& wall, const Vec3& place, double rounding, std::vector<Vec3>& onward) {
     const double at = dot(along(wall), place - wall.point);
-    if (at < wall.half_length - tolerance) onward.push_back(along(wall));
-    if (at > -wall.half_length + tolerance) onward.push_back(-1.0 * along(wall));
+    if (at < wall.half_length - rounding) onward.push_back(along(wall));
+    if (at > -wall.half_length + rounding) onward.push_back(-1.0 * along(wall));
 }
 
 }  // namespace
@@ -46,17 +38,13 @@ PlateJoints::PlateJoints(const std::vector<Wall>& walls) {
         for (std::size_t j = 0; j < walls.size(); ++j) {
             const Wall &own = walls[i], &other = walls[j];
             if (i == j || !is_plate(own) || !is_planar(other)) continue;
-            const double tolerance =
-                on_a_plate *
-                (is_plate(other) ? std::max(size_of(own), size_of(other)) : size_of(own));
-            if (norm(other.point - own.point) > own.half_length + other.half_length + tolerance ||
-                own.half_thickness > other.half_thickness + tolerance)
-                continue;
+            if (!may_end_on(own, other)) continue;
+            const double rounding = rounding_on(own, other);
             for (const std::size_t end : {0, 1}) {
                 const double at = end == 0 ? -own.half_length : own.half_length;
                 const Vec3 place = own.point + at * along(own);
-                if (is_on(other, place, tolerance))
-                    add_onward(other, place, tolerance, onward_[i][end]);
+                if (is_on(other, place, rounding))
+                    add_onward(other, place, rounding, onward_[i][end]);
             }
         }
 }
