@@ -144,30 +144,59 @@ TEST(PolygonWall, PlateAgreesWithExhaustion) {
     EXPECT_GT(seen, 2000);
 }
 
-// A rectangle with a small chamfer tips over the chamfer's upper corner onto its long side, whose
-// other end closes within the step although both corners of the chamfer are lower.
-TEST(PolygonWall, AShortSideHidesNoCorner) {
-    std::size_t most = 0;
-    for (const double chamfer : {0.001, 0.003, 0.01})
-        for (const double spin : {0.5, 1.0, 2.0, 4.0}) {
-            const ShapeTable shapes = {
-                scenes::polygon_record({0, 0, 1 - chamfer, 0, 1, chamfer, 1, 0.5, 0, 0.5})};
-            EngineSettings settings = scenes::exact(0.0, 1e-12);
-            Engine engine(settings, shapes, {scenes::floor(0.0)});
-            // The circumscribed circle has the shape's size: that of the rectangle, nearly.
-            engine.bodies().add(
-                scenes::polygon(shapes, 0, 1, 0.0, 0.7, 0.5 * std::hypot(1.0, 0.5), -0.3));
-            engine.bodies().twist[0].spin = {0.0, 0.0, spin};
-            double deepest = 0.0;
-            for (int n = 0; n < 400; ++n) {
-                engine.step(0.01);
-                most = std::max(most, engine.points().size());
-                engine.move(0.01);
-                deepest = std::max(deepest, engine.max_penetration());
-            }
-            EXPECT_LT(deepest, 1e-4) << chamfer << " " << spin;
-        }
-    EXPECT_GE(most, 3u);
+enum class Under { half_plane, plate, large_square };
+
+/// Adds what lies below y = 0.
+void lay(Engine& engine, const ShapeTable& shapes, Under under) {
+    if (under != Under::large_square) return;
+    Body square = scenes::polygon(shapes, 1, 2, 0.0, -5.0, 5.0 * std::numbers::sqrt2);
+    square.fixed = true;
+    engine.bodies().add(square);
+}
+
+std::vector<Wall> walls_of(Under under) {
+    if (under == Under::large_square) return {};
+    Wall wall = scenes::floor(0.0);
+    if (under == Under::plate) wall.half_length = 5.0;
+    return {wall};
+}
+
+// A rectangle with a small chamfer at one end of its lower side tips over the chamfer's upper
+// corner onto its long side, whose other end closes within the step although both corners of the
+// chamfer are lower. So does one whose lower side ends in a blunt corner.
+TEST(PolygonContact, AShortSideHidesNoCorner) {
+    const auto chamfered = [](double size) {
+        return scenes::polygon_record({0, 0, 1 - size, 0, 1, size, 1, 0.5, 0, 0.5});
+    };
+    const auto blunt = [](double size) {
+        return scenes::polygon_record({0, 0, 0.5, 0, 0.5 + size, 0.01 * size, 1,
+                                       0.01 * size + 0.02 * (0.5 - size), 1, 0.5, 0, 0.5});
+    };
+    for (const Under under : {Under::half_plane, Under::plate, Under::large_square}) {
+        std::size_t most = 0;
+        for (const double size : {0.001, 0.003, 0.01})
+            for (const double spin : {0.5, 1.0, 2.0, 4.0, -0.5, -1.0, -2.0, -4.0})
+                for (const ShapeRecord& outline : {chamfered(size), blunt(size)}) {
+                    const ShapeTable shapes = {outline, scenes::square_record()};
+                    Engine engine(scenes::exact(0.0, 1e-12), shapes, walls_of(under));
+                    // The circumscribed circle has the shape's size: that of the rectangle, nearly.
+                    engine.bodies().add(scenes::polygon(shapes, 0, 1, 0.0, 0.7,
+                                                        0.5 * std::hypot(1.0, 0.5),
+                                                        spin > 0.0 ? -0.3 : 0.3));
+                    engine.bodies().twist[0].spin = {0.0, 0.0, spin};
+                    lay(engine, shapes, under);
+                    double deepest = 0.0;
+                    for (int n = 0; n < 400; ++n) {
+                        engine.step(0.01);
+                        most = std::max(most, engine.points().size());
+                        engine.move(0.01);
+                        deepest = std::max(deepest, engine.max_penetration());
+                    }
+                    EXPECT_LT(deepest, 1e-4) << static_cast<int>(under) << " " << size << " "
+                                             << spin << " " << outline.vertices.size();
+                }
+        EXPECT_GE(most, 3u) << static_cast<int>(under);
+    }
 }
 
 }  // namespace

@@ -125,6 +125,9 @@ struct Facing {
         return p;
     }
 
+    /// Corners this close along the side are one place [m].
+    double near() const { return near_share * std::min(reference.radius, incident.radius); }
+
     int end_corner(bool far) const { return far ? reference.after(side) : side; }
 
     /// The end of the overlap at (t, h) as a contact point; `place` is the incident corner, over
@@ -132,8 +135,7 @@ struct Facing {
     /// inside the other polygon's side.
     ManifoldPoint end_point(double t, double h, const Place& place, bool clipped) const {
         const bool far = place.t > 0.5 * length;
-        const double near = near_share * std::min(reference.radius, incident.radius);
-        const bool one_place = std::abs(place.t - (far ? length : 0.0)) < near;
+        const bool one_place = std::abs(place.t - (far ? length : 0.0)) < near();
         const bool by_incident = one_place ? flip : !clipped;
         return point(t, h, by_incident ? place.corner : end_corner(far), by_incident);
     }
@@ -217,6 +219,32 @@ void name_apart(const Facing& f, const Place& p, Manifold& manifold) {
     one.of_second = !f.flip;
 }
 
+bool is_named(const Manifold& manifold, const ManifoldPoint& point) {
+    for (int i = 0; i < manifold.count; ++i) {
+        const ManifoldPoint& other = manifold.points[static_cast<std::size_t>(i)];
+        if (other.corner == point.corner && other.of_second == point.of_second) return true;
+    }
+    return false;
+}
+
+/// The end of the overlap of the reference with the incident side that goes on from `from`, away
+/// from corner `behind`, as a point of no length.
+void add_further(const Facing& f, const Place& from, int behind, double direction, double alert,
+                 double same, Manifold& manifold) {
+    const double end = direction > 0.0 ? f.length : 0.0;
+    // With no part of the reference ahead there is none.
+    if (!(direction * (end - from.t) > f.near())) return;
+    const int after = f.incident.after(from.corner);
+    const Place to = f.place(after == behind ? f.incident.before(from.corner) : after);
+    // A side that turns back is of the far half of the polygon.
+    if (!(direction * (to.t - from.t) > same)) return;
+    const ManifoldPoint point = direction * (to.t - end) > 0.0
+                                    ? f.end_point(end, height_at(from, to, end), to, true)
+                                    : f.end_point(to.t, to.h, to, false);
+    if (point.gap < alert && !is_named(manifold, point))
+        manifold.points[static_cast<std::size_t>(manifold.count++)] = point;
+}
+
 Manifold clip(const Facing& f, int lowest, double alert, double same) {
     const Place p = f.place(lowest), q = f.place(f.other_end(lowest));
     const Overlap o = overlap(p, q, f.length, same);
@@ -228,10 +256,16 @@ Manifold clip(const Facing& f, int lowest, double alert, double same) {
     // Sides that share no length touch in one point.
     if (!o.shared || !(length > same)) return manifold;
     manifold.points[1] = second_point(f, p, q);
-    if (!(manifold.points[1].gap < alert)) return manifold;
-    manifold.count = 2;
-    name_apart(f, p, manifold);
-    for (ManifoldPoint& point : manifold.points) point.length = 0.5 * length;
+    if (manifold.points[1].gap < alert) {
+        manifold.count = 2;
+        name_apart(f, p, manifold);
+        for (ManifoldPoint& point : manifold.points) point.length = 0.5 * length;
+    }
+    // A plate has no further corners.
+    if (f.incident.corners < 3) return manifold;
+    const double direction = q.t > p.t ? 1.0 : -1.0;
+    add_further(f, q, p.corner, direction, alert, same, manifold);
+    if (!o.outside) add_further(f, p, q.corner, -direction, alert, same, manifold);
     return manifold;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// The contact manifold of two convex polygons: one or two points, each with its own gap and normal.
+// The contact manifold of two convex polygons: up to four points, each with its own gap and normal.
 //
 // The reference side is that side, of all sides of both polygons, over which the other polygon lies
 // highest; its height is that of its lowest corner (the separation). The incident side is the side
@@ -12,6 +12,8 @@
 //                           between the two corners, gap their distance
 //     side on side          the other end of the part of the incident side above [0, L] is a second
 //                           point if its h is below the alert distance
+//     beside that side      likewise for the two incident sides next to it, since beside a short
+//                           side or at a blunt corner they may close too when the polygon turns
 //
 // While the polygons are apart, the gap of the first point is their exact distance: the separation
 // as a function of direction is quasi-concave where it is positive, so that the best side ends at
@@ -35,7 +37,7 @@ struct ManifoldPoint {
     double x = 0.0, y = 0.0;
     double nx = 0.0, ny = 0.0;  ///< unit normal, from the first to the second
     double gap = 0.0;           ///< [m]
-    double length = 0.0;        ///< half the common side for each of two points, else 0 [m]
+    double length = 0.0;        ///< half the common side for each of its two ends, else 0 [m]
     int corner = 0;             ///< the corner that names the point
     bool of_second = false;     ///< whether this corner belongs to the second polygon
     /// Normal fixed to a side of the first (1), of the second (2), or to none (0).
@@ -43,7 +45,7 @@ struct ManifoldPoint {
 };
 
 struct Manifold {
-    std::array<ManifoldPoint, 2> points;
+    std::array<ManifoldPoint, 4> points;
     int count = 0;
 };
 
