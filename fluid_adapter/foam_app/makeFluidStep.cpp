@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fluid_adapter/foam_app/makeFluidStep.hpp"
+#include "fluid_adapter/foam_app/fields/sideConditions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -183,6 +184,7 @@ std::unique_ptr<FluidStep> step_in_space(const Settings& settings, FluidFields& 
                       "in space fluid.transport_scheme must be Gauss limitedLinearV, linear, LUST "
                       "or linearUpwind with linear gradients, and fluid.pressure_solver and "
                       "fluid.viscous_solver FFT");
+    demand_conditions_of_grid(fields, grid);
     auto own = std::make_unique<SpaceRows>(fields, grid, cells);
     if (!own->stay_in_rows())
         throw Failure(ExitCode::bad_input,

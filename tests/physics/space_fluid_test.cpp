@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "fluid_adapter/box_app/array_store.hpp"
 #include "fluid_adapter/domain/grain_reach.hpp"
@@ -81,6 +82,43 @@ std::vector<double> written_field(const std::filesystem::path& file, std::size_t
     EXPECT_LT(open + values.size() * sizeof(double), text.size());
     std::memcpy(values.data(), text.data() + open + 1, values.size() * sizeof(double));
     return values;
+}
+
+/// The message with which the case is refused after these words of a file have been replaced.
+std::string refusal(const char* file, const std::string& patch, const std::string& condition) {
+    const Settings settings = space_settings("marchuk-yanenko");
+    const TemporaryFolder folder;
+    write_fluid_case(settings, folder.path());
+    build_fluid_mesh(folder.path(), folder.path() / "blockMesh.log");
+    std::stringstream all;
+    all << std::ifstream(folder.path() / file).rdbuf();
+    std::string text = all.str();
+    const std::size_t begin = text.find('{', text.find("\n    " + patch)) + 1;
+    text.replace(begin, text.find('}', begin) - begin, condition);
+    std::ofstream(folder.path() / file) << text;
+    FoamAdapter foam(folder.path());
+    try {
+        foam.initialise(settings, {{"sphere", {}}});
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::bad_input);
+        return failure.what();
+    }
+    return "accepted";
+}
+
+// The steps would play walls and free sides of the grid whatever the files say.
+TEST(SpaceFluidConditions, ThatTheGridDoesNotHaveAreRefused) {
+    const auto expect_words = [](const std::string& said,
+                                 const std::vector<const char*>& expected) {
+        for (const char* word : expected) EXPECT_NE(said.find(word), std::string::npos) << said;
+    };
+    expect_words(refusal("0/U", "top", " type slip; "), {"0/U", "top", "slip", "noSlip"});
+    expect_words(refusal("0/U", "back", " type slip; "), {"0/U", "back", "slip", "zeroGradient"});
+    expect_words(refusal("0/p", "back", " type fixedValue; value uniform 1.5; "),
+                 {"0/p", "back", "another value", "domain.back"});
+    expect_words(refusal("0/p", "bottom", " type fixedValue; value uniform 0; "),
+                 {"0/p", "bottom", "zeroGradient"});
+    EXPECT_EQ(refusal("0/U", "top", " type fixedValue; value uniform (0.1 0 0); "), "accepted");
 }
 
 class SpaceFluid : public testing::TestWithParam<std::string> {};
