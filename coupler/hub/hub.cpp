@@ -75,16 +75,22 @@ Hub::Hub(HubCase the_case, HubFiles files, Channel& grains, Channel* fluid,
 Hub::~Hub() = default;
 
 RunOutput Hub::make_output() const {
-    if (case_.resumed)
-        return {files_.history, files_.series, settings_.run, case_.shapes,
-                case_.resumed->state.output};
-    return {files_.history, files_.series, settings_.run, case_.shapes};
+    if (!case_.resumed) return {files_.history, files_.series, settings_.run, case_.shapes};
+    OutputState earlier = case_.resumed->state.output;
+    if (case_.resumed->state.windows == settings_.run.windows)
+        earlier.lengths = earlier.lengths_at_end;
+    return {files_.history, files_.series, settings_.run, case_.shapes, earlier};
 }
 
 /// One window, from t^n to t^{n+1}.
 void Hub::play(const Window& window) {
     WindowResult result = scheme_->play(window, output_.state(), context());
-    ledger_.check(window, result);
+    try {
+        ledger_.check(window, result);
+    } catch (const PhysicsRefused&) {
+        output_.record_refused(result);
+        throw;
+    }
     // The largest Courant number before this window: a warning belongs to the window that exceeds
     // it.
     const auto fluid = output_.statistics().maxima.fluid;
@@ -99,12 +105,22 @@ void Hub::warn_of_courant(double before) {
 }
 
 /// Output and checkpoint of a window. A row out of turn, at the end of this part of the run, is no
-/// longer there in the next one, whose history is to be that of a run in one part: it comes after
-/// the checkpoint.
+/// longer there once a next part plays windows, whose history is to be that of a run in one part:
+/// the checkpoint has the lengths without it, and those with it for the case that none is left.
 void Hub::finish(const Window& window, bool out_of_turn, bool save_it) {
     if (window.write_output && !out_of_turn) write_output(window);
-    if (save_it) checkpoints_.write(state());
-    if (window.write_output && out_of_turn) write_output(window);
+    std::optional<CouplerState> without_row;
+    if (save_it) without_row = state();
+    try {
+        if (window.write_output && out_of_turn) write_output(window);
+    } catch (...) {
+        // A row that cannot be written ends the run, but loses no checkpoint.
+        if (without_row) checkpoints_.write(*without_row);
+        throw;
+    }
+    if (!without_row) return;
+    without_row->output.lengths_at_end = output_.lengths();
+    checkpoints_.write(*without_row);
 }
 
 void Hub::write_output(const Window& window) {
@@ -259,7 +275,8 @@ void Hub::start() {
         go_on_from(*case_.resumed);
     else
         begin_output(std::move(initial));
-    // Waiting during the start belongs to no window.
+    // What the start took belongs to no window.
+    output_.begin_windows();
     participants_.watch.take_waited();
 }
 

@@ -79,6 +79,7 @@ Bytes encode(const OutputState& state) {
     for (const double residual : residuals) code(residual);
     visit_since(code, copy.since_row);
     visit_lengths(code, copy.lengths);
+    visit_lengths(code, copy.lengths_at_end);
     return out;
 }
 
@@ -95,6 +96,7 @@ OutputState decode(View bytes) {
     state.statistics.contact_residuals.replace(std::move(residuals));
     visit_since(code, state.since_row);
     visit_lengths(code, state.lengths);
+    visit_lengths(code, state.lengths_at_end);
     code.finish();
     return state;
 }

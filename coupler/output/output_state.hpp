@@ -23,6 +23,8 @@ struct OutputState {
     RunStatistics statistics;
     SinceRow since_row;
     OutputLengths lengths;
+    /// Where no window follows: with the row that an end out of turn adds.
+    OutputLengths lengths_at_end;
 };
 
 Bytes encode(const OutputState& state);

@@ -40,26 +40,30 @@ RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem
 }
 
 OutputState RunOutput::saved() {
-    OutputState state{last_.state, statistics_, since_row_, {}};
-    state.lengths.history = history_.length();
+    const OutputLengths now = lengths();
+    return {last_.state, statistics_, since_row_, now, now};
+}
+
+OutputLengths RunOutput::lengths() {
+    OutputLengths lengths;
+    lengths.history = history_.length();
     // The checkpoint will say how long this file is: so much of it must be there after a power cut.
     put_on_disk(history_.file());
-    state.lengths.grains = grains_.collection().length();
+    lengths.grains = grains_.collection().length();
     put_on_disk(grains_.collection().file());
     if (vtk::Collection* contacts = contacts_.collection()) {
-        state.lengths.contacts = contacts->length();
+        lengths.contacts = contacts->length();
         put_on_disk(contacts->file());
     }
-    state.lengths.probes = probes_.length();
-    if (state.lengths.probes >= 0) put_on_disk(probes_.file());
-    return state;
+    lengths.probes = probes_.length();
+    if (lengths.probes >= 0) put_on_disk(probes_.file());
+    return lengths;
 }
 
 void RunOutput::begin(Motion state) {
     last_.state = std::move(state);
     history_.append(row());
     grains_.write(0.0, 0, 1.0, last_.state, {});
-    lap();
 }
 
 /// Seconds since the end of the previous window, so that the windows add up to the run.

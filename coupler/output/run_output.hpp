@@ -25,15 +25,24 @@ class RunOutput {
     RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
               const RunValues& run, const ShapeTable& shapes, const OutputState& earlier);
 
-    /// What the next windows depend on, and the lengths of the files, which are on the disk then.
+    /// What the next windows depend on, and lengths().
     OutputState saved();
+
+    /// Of the files, which are on the disk then.
+    OutputLengths lengths();
 
     /// Writes the state at t = 0.
     void begin(Motion state);
 
+    /// The first window of this part of the run begins now.
+    void begin_windows() { lap(); }
+
     /// Records a window that passed the checks; `waited` [s] is the time spent waiting for
     /// participants.
     void record(const Window& window, WindowResult result, double waited);
+
+    /// Of a window that did not pass them.
+    void record_refused(const WindowResult& result) { statistics_.take_in_refused(result); }
 
     /// Writes the last window: its row, grains and contacts.
     void write();

@@ -120,9 +120,11 @@ Motion ScriptedGrains::apply_kick(const Window& window, const std::vector<Kick>&
 }
 
 SavedState ScriptedGrains::save() const {
+    reach("save", -1);
     return encode(motion_);
 }
 void ScriptedGrains::restore(const SavedState& state) {
+    reach("restore", -1);
     motion_ = decode<Motion>(state);
 }
 

@@ -51,6 +51,15 @@ void RunStatistics::resume(const RunStatistics& earlier) {
 
 void RunStatistics::take_in(const WindowResult& result) {
     ++windows_done;
+    raise_maxima(result);
+    contact_residuals.take_in(result.motion.report);
+}
+
+void RunStatistics::take_in_refused(const WindowResult& result) {
+    raise_maxima(result);
+}
+
+void RunStatistics::raise_maxima(const WindowResult& result) {
     maxima.penetration =
         std::max(maxima.penetration, result.state.report.max_penetration / diameter_);
     if (const auto violation = result.state.report.contact_violation)
@@ -62,7 +71,6 @@ void RunStatistics::take_in(const WindowResult& result) {
         maxima.motion_defect =
             std::max(maxima.motion_defect, result.motion_defect->defect / diameter_);
     maxima.unconverged_windows += result.motion.report.converged ? 0 : 1;
-    contact_residuals.take_in(result.motion.report);
     if (maxima.fluid) take_in(result.kicks.report);
     if (result.joint) take_in(*result.joint);
 }

@@ -6,7 +6,9 @@
 
 #include <sys/resource.h>
 
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include "tests/unit/coupler/loopback_job.hpp"
 
@@ -215,6 +217,56 @@ TEST(Checkpoint, AStoppedRunGoesOnAsIfItHadNotBeenStopped) {
     second.run(folder);
     EXPECT_EQ(second.status.code, ExitCode::done) << second.status.reason;
     EXPECT_EQ(history_of(folder), history_of(whole_folder));
+}
+
+// Nothing follows that the row of the stop would not belong to.
+TEST(Checkpoint, ARunThatEndsWhereItWasStoppedKeepsItsLastRow) {
+    const TestFolder folder("checkpoint-ends-stopped");
+    Job first = job_with_checkpoints("split");
+    first.grains_fault = [&](const std::string& function, std::int64_t window) {
+        if (function == "advance" && window == 1) std::ofstream(folder.path() / "STOP");
+    };
+    first.run(folder);
+    const std::string rows = text_of(folder.files().history);
+    const std::string grains = text_of(folder.files().series / "grains.pvd");
+    const std::string contacts = text_of(folder.files().series / "contacts.pvd");
+    EXPECT_EQ(read_csv(folder.files().history).back().front(), "3");
+    Job second = job_with_checkpoints("split");
+    second.settings.set("run.windows", std::int64_t{3});
+    second.resume = "w00000003";
+    second.run(folder);
+    EXPECT_EQ(second.status.code, ExitCode::done) << second.status.reason;
+    EXPECT_EQ(second.status.statistics.windows_done, 3);
+    EXPECT_EQ(text_of(folder.files().history), rows);
+    EXPECT_EQ(text_of(folder.files().series / "grains.pvd"), grains);
+    EXPECT_EQ(text_of(folder.files().series / "contacts.pvd"), contacts);
+}
+
+// Wall times of the first row are those of its windows.
+TEST(Checkpoint, WhatTheStartTakesBelongsToNoWindow) {
+    const TestFolder folder("checkpoint-slow-start");
+    const auto slow = [](const char* call) {
+        return [call](const std::string& function, std::int64_t) {
+            if (function == call) std::this_thread::sleep_for(std::chrono::seconds(1));
+        };
+    };
+    Job first = job_with_checkpoints("split");
+    first.settings.set("checkpoint.windows", std::int64_t{6});  // before the first window and last
+    first.settings.set("run.output_every", std::int64_t{1});
+    first.grains_fault = slow("save");
+    first.run(folder);
+    Job second = job_with_checkpoints("split");
+    second.settings.set("run.output_every", std::int64_t{1});
+    second.settings.set("run.windows", std::int64_t{8});
+    second.grains_fault = slow("restore");
+    second.resume = "w00000006";
+    second.run(folder);
+    EXPECT_EQ(second.status.code, ExitCode::done) << second.status.reason;
+    const Rows rows = read_csv(folder.files().history);
+    ASSERT_EQ(rows.size(), 10u);
+    for (const std::size_t row : {2u, 8u})  // of the first window of each part
+        for (const char* name : {"wall_step", "wall_coupling"})
+            EXPECT_LT(std::stod(rows[row][column(rows[0], name)]), 1.0) << row << " " << name;
 }
 
 TEST(Checkpoint, FilesAskForOutputAndForACheckpointOnce) {

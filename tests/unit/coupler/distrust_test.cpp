@@ -69,6 +69,15 @@ GrainState& grain_100(Motion& motion) {
                          [](const GrainState& grain) { return grain.id == 100; });
 }
 
+// The record tells the value that ended the run.
+TEST_F(Distrust, AnOverlapBeyondTheLimitIsTheLargestOfTheRun) {
+    job.settings.set("run.output_every", std::int64_t{1});
+    grains_send(Kind::state, [](Motion& m) { m.report.max_penetration = 0.3; });
+    expect_end(ExitCode::physics_refused, {"overlap of 0.3 D in window 3"});
+    EXPECT_EQ(job.status.statistics.maxima.penetration, 0.3);
+    EXPECT_EQ(read_csv(folder.files().history).back().front(), "3");
+}
+
 TEST_F(Distrust, AGrainMissingAfterTheContacts) {
     grains_send(Kind::motion, [](Motion& m) { m.grains.clear(); });
     expect_end(ExitCode::physics_refused,
