@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fluid_adapter/box_step/box_operators.hpp"
 
@@ -23,6 +24,7 @@ struct IterationLimit {
     double tolerance = 0.0;
     double reduction = 0.0;        ///< also enough: this part of the first residual
     double slip_reduction = 1e-3;  ///< of one direction; what is left adds to the flow's own slip
+    double longest_step = std::numeric_limits<double>::infinity();  ///< of alpha
 };
 
 /// Of a residual, over all ranks: what its rms is made of.
@@ -52,7 +54,7 @@ IterationResult iterate(const IterationLimit& limit, double square, double scale
         result.broke_down = !(image.direction > 0.0);
         if (result.broke_down) break;
         if (result.iterations == 0) rz = image.step;
-        const double alpha = rz / image.direction;
+        const double alpha = std::min(rz / image.direction, limit.longest_step);
         move(alpha);
         // |r - alpha A d|^2
         square =

@@ -159,6 +159,10 @@ std::vector<BoundaryForce> BoxFluidStep::end_coupled() {
     return {on_all_ranks(step_.pressure_force()), on_all_ranks(coupled_->viscous_force())};
 }
 
+void BoxFluidStep::forget_pressure() {
+    if (coupled_) std::fill_n(step_.pressure(), step_.cells(), 0.0);
+}
+
 std::vector<VelocityValues> BoxFluidStep::velocity_values() {
     std::vector<VelocityValues> values;
     for (double* u : components()) values.push_back({u, step_.cells()});

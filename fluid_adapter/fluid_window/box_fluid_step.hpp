@@ -58,6 +58,7 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     void sides_changed() override;
     void put_pressure() override;
     void forget_rates() override { second_order_.forget(); }
+    void forget_pressure() override;
     std::int64_t kind() const override {
         return in_second_order_ ? (coupled_ ? 7 : 4) : coupled_ ? 6 : 2;
     }

@@ -87,6 +87,9 @@ class FluidStep {
     /// u was changed from outside: what the step knows of earlier windows' rates is void.
     virtual void forget_rates() {}
 
+    /// p, where `coupled` is not null, is none that the next window could go on from.
+    virtual void forget_pressure() {}
+
     /// State beyond u and p: the excess flux, in the step's own order; saved and restored. `kind`
     /// identifies the implementation, and so the order.
     virtual std::int64_t kind() const = 0;

@@ -71,8 +71,8 @@ void FluidWindow::let_fall(const std::vector<GrainState>& grains) {
 void FluidWindow::correct(const std::vector<GrainState>& grains) {
     // Under `joint` let_fall has taken the grains, and these are the results of their contacts;
     // under `split` this is the first time that they come.
-    if (!grains_taken_) check_rows(grains);
-    if (!grains_taken_)
+    if (!so_far_.grains_taken) check_rows(grains);
+    if (!so_far_.grains_taken)
         return answer("step 5 (multipliers)",
                       [&] { multipliers_.take_constrained(grains, window_); });
     watch_.play("step 5 (contact impulses)", timings_.multipliers,
@@ -107,6 +107,7 @@ Kicks FluidWindow::impose() {
             put_fields();
             store_.show(multipliers_.grains());
         });
+    if (so_far_.jumped) forget_jump();
     report_.wall_seconds = timings_.together();
     return {multipliers_.kicks(), report_};
 }
@@ -116,7 +117,7 @@ void FluidWindow::begin(const Window& window) {
     watch_.begin(window);
     timings_ = {};
     report_ = {};
-    grains_taken_ = false;
+    so_far_ = {};
     // An array per component, only for windows whose lambda somebody sees.
     if (CoupledStep* coupled = step_.coupled()) coupled->keep_unconstrained(lambda_is_seen());
     // Before step 1, which sees what sides hold in this window.
@@ -171,16 +172,24 @@ void FluidWindow::answer(const char* name, Take take) {
     });
     if (CoupledStep* coupled = step_.coupled()) coupled->place_grains(multipliers_.constraint());
     correct_fluid(before_contacts(coupled_limits_));
-    grains_taken_ = true;
+    so_far_.grains_taken = true;
+}
+
+/// The window in which bodies set a fluid at rest in motion. The fluid around them takes its share
+/// through the pressure (added mass).
+void FluidWindow::begin_in_motion() {
+    double moving[] = {multipliers_.begins_in_motion() ? 1.0 : 0.0,
+                       multipliers_.is_driven() ? 1.0 : 0.0};
+    store_.ranks().max(moving, 2);
+    if (moving[0] > 0.0) carry_along();
+    so_far_.jumped = moving[0] + moving[1] > 0.0;
+    // The jump is no rate of change that the next window should go on with.
+    if (so_far_.jumped) step_.forget_rates();
 }
 
 /// Grains that begin with a velocity begin with it in the cells that they cover too; otherwise the
-/// fluid there would take it from them. The fluid around them is at rest, and takes its share
-/// through the pressure (added mass).
-void FluidWindow::begin_in_motion() {
-    double moving = multipliers_.begins_in_motion() ? 1.0 : 0.0;
-    store_.ranks().max(&moving, 1);
-    if (moving == 0.0) return;
+/// fluid there would take it from them.
+void FluidWindow::carry_along() {
     const Vec3 before = field_.momentum().sum;
     field_.load(multipliers_.constraint());
     note(multipliers_.carry_fluid_along());
@@ -188,14 +197,22 @@ void FluidWindow::begin_in_motion() {
     ledger_.begin_with(field_.momentum().sum - before);
     // s contains it.
     if (CoupledStep* coupled = step_.coupled()) coupled->keep_transported();
-    // The jump is no rate of change that the next window should go on with.
-    step_.forget_rates();
+}
+
+/// The pressure that sets the fluid around in motion is an impulse over dt, and not that of the
+/// next window. Where it is found to a tolerance the next window finds its own.
+void FluidWindow::forget_jump() {
+    if (coupled_limits_.iterated) return;
+    step_.forget_pressure();
+    fields_follow_ = false;
 }
 
 /// Pressure and viscosity of the fluid with these grains, where the splitting corrects them.
-void FluidWindow::correct_fluid(const CoupledLimits& limits) {
+void FluidWindow::correct_fluid(CoupledLimits limits) {
     CoupledStep* coupled = step_.coupled();
     if (!coupled) return;
+    // Without a pressure to begin with, one iteration would leave a tenth of it.
+    if (so_far_.jumped && !limits.iterated) limits.pressure = {limits.viscosity.most, 0.0, 1e-3};
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
         // Pressure and viscosity change an imposed velocity by rigid changes, and the multipliers
         // go on from what has been imposed.

@@ -56,6 +56,12 @@ class FluidWindow {
     const FluidTimings& timings() const { return timings_; }
 
  private:
+    /// Of the present window.
+    struct SoFar {
+        bool grains_taken = false;
+        bool jumped = false;  ///< bodies have set a fluid at rest in motion
+    };
+
     void begin(const Window& window);
     void project();
     void drive();
@@ -66,9 +72,11 @@ class FluidWindow {
     template <class Take>
     void answer(const char* name, Take take);
     void begin_in_motion();
+    void carry_along();
+    void forget_jump();
     void note(const MultiplierResult& result);
     void note(const CoupledReport& result);
-    void correct_fluid(const CoupledLimits& limits);
+    void correct_fluid(CoupledLimits limits);
     void close_ledger();
     double volume() const;
     void write_fields();
@@ -85,7 +93,7 @@ class FluidWindow {
     CoupledLimits coupled_limits_;
 
     Window window_;  ///< the present one
-    bool grains_taken_ = false;
+    SoFar so_far_;
     bool fields_follow_ = true;  ///< the fields hold what the steps know
     StepWatch watch_;
     FluidTimings timings_;

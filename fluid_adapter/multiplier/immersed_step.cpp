@@ -156,16 +156,22 @@ Twist ImmersedStep::before_contacts(const ImmersedGrain& grain, const GrainState
             grain.contact_motion.spin - gained.moment / grain.effective_inertia};
 }
 
-bool ImmersedStep::begins_in_motion() const {
+bool ImmersedStep::moves(const Twist& motion) const {
     // Above what is left of a zero that `before_contacts` finds as a difference
     const double rounding = 1e-9 * run_.velocity;
-    const auto moves = [&](const ImmersedGrain& grain) {
-        const Twist& motion = grain.motion_before;
-        return !grain.prescribed &&
-               norm(motion.velocity) + grain.radius * norm(motion.spin) > rounding;
-    };
-    return std::any_of(grains_.begin(), grains_.begin() + static_cast<std::ptrdiff_t>(states_),
-                       moves);
+    return norm(motion.velocity) + run_.diameter * norm(motion.spin) > rounding;
+}
+
+bool ImmersedStep::begins_in_motion() const {
+    return std::any_of(
+        grains_.begin(), grains_.begin() + static_cast<std::ptrdiff_t>(states_),
+        [&](const auto& grain) { return !grain.prescribed && moves(grain.motion_before); });
+}
+
+bool ImmersedStep::is_driven() const {
+    return std::any_of(grains_.begin(), grains_.end(), [&](const auto& body) {
+        return body.prescribed && moves(body.contact_motion);
+    });
 }
 
 /// u += W(0) of bodies whose motion is given.

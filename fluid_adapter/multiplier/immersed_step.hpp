@@ -44,6 +44,9 @@ class ImmersedStep {
     /// Whether a free grain of this rank moves at the start of the window, beyond rounding.
     bool begins_in_motion() const;
 
+    /// Whether a body whose motion is given moves in the window.
+    bool is_driven() const;
+
     /// A fluid at rest moves with the free grains that it is to begin with: adds to the field's
     /// velocity that which satisfies the constraint with their U^n, and with all other bodies at
     /// rest. The grains keep what they have. Before `solve`; by every rank of the fluid.
@@ -78,6 +81,7 @@ class ImmersedStep {
 
  private:
     ImmersedGrain immersed(const GrainState& state) const;
+    bool moves(const Twist& motion) const;
     Vec3 driving(const GrainState& state, double step) const;
     Impulse weight(const GrainState& state, double step) const;
     Twist before_contacts(const ImmersedGrain& grain, const GrainState& state, double step) const;

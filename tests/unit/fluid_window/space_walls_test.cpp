@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "fluid_adapter/box_app/array_store.hpp"
 #include "fluid_adapter/fluid_window/fluid_window.hpp"
@@ -136,6 +137,53 @@ TEST_P(FlowsWithinWalls, TurningCylinders) {
     EXPECT_NEAR(gap.velocity(1, 2.5 + 0.5625, 2.51, 0.5), spin * 0.5625, 1e-6) << "in the wall";
     EXPECT_LT(std::abs(gap.velocity(1, 4.9, 2.5, 0.5)), 1e-2 * expected) << "outside";
     EXPECT_LT(gap.largest_defect, 1e-6) << "all impulses cancel";
+}
+
+/// Velocities along x of a neutral sphere beside a plate that turns about its lower end, window by
+/// window, in a box that is open at the right.
+std::vector<double> beside_a_paddle(const std::string& splitting, int windows) {
+    constexpr std::array<int, 3> cells{40, 48, 32};
+    constexpr double short_step = 0.01;
+    Box wide(2, splitting,
+             "0 plate 1.6 2.2 0.4 1.7 0.9 0 0 0 3.1 0 0 0.3 0 0 0 0 0 0.6 1.9 2.5 0 0 -1");
+    wide.box.grid = grid_of_cubes(cells, edge, {Side::wall, Side::wall, Side::cyclic});
+    wide.box.grid.sides[0][1] = Side::open;
+    wide.box.viscosity = 1.0 / 20.0;
+    wide.settings.set("domain.right", std::string("free"));
+    const char* sizes[] = {"run.size_x", "run.size_y", "run.size_z"};
+    for (int a = 0; a < 3; ++a) wide.settings.set(sizes[a], cells[a] * edge);
+    wide.settings.set("fluid.splitting_tolerance", 1e-3);
+    wide.settings.set("run.gravity", 0.0);
+    ArrayStore store(wide.box);
+    FluidWindow window(store, wide.settings, {{"sphere", {}}});
+    GrainState sphere;
+    sphere.id = 7;
+    sphere.radius = 0.5;
+    sphere.density = 1.0;
+    sphere.position = {1.2, 3.9, 2.1};
+    std::vector<double> velocities;
+    for (int index = 0; index < windows; ++index) {
+        window.advance({index, index * short_step, short_step, false});
+        window.correct({sphere});
+        const Kicks kicks = window.impose();
+        sphere.velocity = kicks.kicks[0].velocity;
+        sphere.angular_velocity = kicks.kicks[0].angular_velocity;
+        sphere.position = sphere.position + short_step * sphere.velocity;
+        velocities.push_back(sphere.velocity[0]);
+    }
+    return velocities;
+}
+
+// The first window finds the pressure of the jump, the others follow it with an iteration each, and
+// what it leaves does not swing.
+TEST(PushedLiquid, OneIterationPerWindowFollowsWithoutASwing) {
+    const std::vector<double> once = beside_a_paddle("explicit-multiplier", 50);
+    const std::vector<double> all = beside_a_paddle("implicit-multiplier", 50);
+    EXPECT_LT(all.front(), -0.04) << "the paddle sets the sphere in motion";
+    for (std::size_t n = 0; n < once.size(); ++n)
+        EXPECT_NEAR(once[n], all[n], 0.05 * std::abs(all[n])) << n;
+    for (std::size_t n = 2; n < once.size(); ++n)
+        EXPECT_LT(std::abs(once[n] - 2.0 * once[n - 1] + once[n - 2]), 0.002) << n;
 }
 
 INSTANTIATE_TEST_SUITE_P(Splittings, FlowsWithinWalls,
