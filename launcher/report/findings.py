@@ -42,19 +42,36 @@ def half_fall(run):
     return float(np.interp(half, height[[after, after - 1]], time[[after, after - 1]]))
 
 
+def recorded(run, name):
+    """One of the `maxima` of run.json; None without it."""
+    value = (run.record.get('maxima') or {}).get(name)
+    return None if value is None or np.isnan(value) else value
+
+
 def largest(run, column, in_record=None):
-    """Largest value of a quantity, over all windows if run.json has it, else over the rows; or None."""
-    recorded = (run.record.get('maxima') or {}).get(in_record) if in_record else None
-    if recorded is not None:
-        return float(recorded)
+    """Largest value of a quantity over all windows that run.json or the rows of the history tell of; or None. A run that is
+    at work or was killed has its maxima only in the rows, and in run.json perhaps those of an earlier part."""
     _, values = run.column(column)
-    return float(values.max()) if len(values) else None
+    known = [recorded(run, in_record), values.max() if len(values) else None]
+    return max((float(value) for value in known if value is not None), default=None)
+
+
+def unconverged_windows(run):
+    """Number of windows whose contact solve missed its tolerance, by run.json or by the rows, whichever has more; or None."""
+    _, since = run.column('unconverged')
+    known = [recorded(run, 'unconverged_windows'), since.sum() if len(since) else None]
+    return max((int(count) for count in known if count is not None), default=None)
 
 
 def unconverged(run):
     """(what happened, number of windows) of the solvers that the run tells of."""
-    maxima = run.record.get('maxima') or {}
-    return [(what, maxima[name]) for name, what in UNCONVERGED if maxima.get(name) is not None]
+    counts = {name: recorded(run, name) for name, _ in UNCONVERGED} | {'unconverged_windows': unconverged_windows(run)}
+    return [(what, counts[name]) for name, what in UNCONVERGED if counts[name] is not None]
+
+
+def of_worst(runs, measure):
+    """The largest value of measure(run) over some runs; None if none has it."""
+    return max((value for value in map(measure, runs) if value is not None), default=None)
 
 
 @dataclass

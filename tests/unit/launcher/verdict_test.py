@@ -69,6 +69,23 @@ class Verdict(unittest.TestCase):
         run = run_with(record={'status': 'interrupted', 'exit_code': 130, 'windows_done': 4})
         self.assertIn('Status: interrupted, exit code 130. 4 of 10 windows, t = 2 t_c.', verdict.outcome(run, []))
 
+    def test_a_run_that_was_resumed_and_killed_is_judged_by_its_rows_too(self):
+        """run.json has the maxima of the earlier part alone."""
+        run = run_with(history={'time': [0, 1, 2], 'max_penetration': [0, 0.05, np.nan], 'grain_balance': [np.nan, 1e-15, 1e-3],
+                                'unconverged': [np.nan, 3, 4]})
+        self.assertEqual(said(run)['overlaps'][0], verdict.DOUBT)
+        self.assertIn('up to 0.05 D', said(run)['overlaps'][1])
+        self.assertIn('grains 0.001, fluid 3e-13', said(run)['momentum'][1])
+        self.assertIn('in 7 of them the contact solver missed', said(run)['solvers'][1])
+
+    def test_the_rows_do_not_hide_what_lies_between_them(self):
+        run = run_with({'penetration': 0.04, 'unconverged_windows': 9, 'grain_balance': None, 'fluid_balance': np.nan},
+                       history={'time': [0, 1], 'max_penetration': [0, 1e-5], 'grain_balance': [np.nan, 1e-15],
+                                'unconverged': [np.nan, 2]})
+        self.assertIn('up to 0.04 D', said(run)['overlaps'][1])
+        self.assertIn('in 9 of them', said(run)['solvers'][1])
+        self.assertIn('grains 1e-15.', said(run)['momentum'][1])
+
     def test_grains_that_rest_and_grains_that_left(self):
         run = run_with(history={'time': [0, 1, 2], 'mean_speed': [0, 1, 0.001], 'grains': [9, 9, 7]})
         self.assertTrue(said(run)['rest'][1].startswith('At rest from t = 2 t_c on'))
