@@ -69,6 +69,24 @@ def unconverged(run):
     return [(what, counts[name]) for name, what in UNCONVERGED if counts[name] is not None]
 
 
+def windows_done(run):
+    """By run.json, or by the last row where that is later; None if neither tells it."""
+    _, steps = run.column('step')
+    known = [run.record.get('windows_done'), steps[-1] if len(steps) else None]
+    return max((int(count) for count in known if count is not None), default=None)
+
+
+def covers_all(run):
+    """Whether the maxima of run.json are over all windows that the run tells of. One that was killed or is at work has none
+    there, or those of its earlier part."""
+    return bool(run.record.get('maxima')) and run.record.get('windows_done') in (None, windows_done(run))
+
+
+def extent(run):
+    """Which windows the largest values are of, to be put after "of" or "in"."""
+    return 'any window' if covers_all(run) else 'the earlier parts and the rows' if run.record.get('maxima') else 'the rows'
+
+
 def of_worst(runs, measure):
     """The largest value of measure(run) over some runs; None if none has it."""
     return max((value for value in map(measure, runs) if value is not None), default=None)

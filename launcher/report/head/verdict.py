@@ -32,7 +32,7 @@ def outcome(run, found):
 
 
 def progress(run):
-    done, planned = run.record.get('windows_done'), run.record.get('windows')
+    done, planned = findings.windows_done(run), run.record.get('windows')
     if done is None or planned is None:
         return []
     step = float(run.case.get('time.step') or 0.0)
@@ -56,32 +56,42 @@ def momentum(run):
         return None
     beyond = [f'{key} = {run.case[key]}' for _, key, defect in defects if key in run.case and defect > float(run.case[key])]
     told = ', '.join(f'{name} {defect:.2g}' for name, _, defect in defects)
+    largest = f'largest relative defect of {findings.extent(run)} {told}'
     if beyond:
-        return Check('momentum', f'Momentum is not balanced: largest relative defect of any window {told}, beyond '
-                     + ', '.join(beyond) + '.', DOUBT)
-    return Check('momentum', f'Momentum is balanced: largest relative defect of any window {told}.', HOLDS)
+        return Check('momentum', f'Momentum is not balanced: {largest}, beyond {", ".join(beyond)}.', DOUBT)
+    return Check('momentum', f'Momentum is balanced: {largest}.', HOLDS)
 
 
 def overlap(run):
     deepest = findings.largest(run, 'max_penetration', 'penetration')
     if deepest is None:
         return None
+    told = f'{deepest:.3g} D' + ('' if findings.covers_all(run) else f' in {findings.extent(run)}')
     allowed = f'; beyond {run.case["limits.penetration"]} D a run ends' if 'limits.penetration' in run.case else ''
     if deepest > SMALL_OVERLAP:
-        return Check('overlaps', f'Overlaps are large: up to {deepest:.3g} D{allowed}.', DOUBT)
-    return Check('overlaps', f'Overlaps are small: at most {deepest:.3g} D{allowed}.', HOLDS)
+        return Check('overlaps', f'Overlaps are large: up to {told}{allowed}.', DOUBT)
+    return Check('overlaps', f'Overlaps are small: at most {told}{allowed}.', HOLDS)
 
 
 def solves(run):
-    """Of all solvers of the run; one that stopped early leaves its error in the result."""
+    """Of all solvers of the run; one that stopped early leaves its error in the result. The rows tell of the contact solver
+    alone, in all windows up to the last row."""
     counts = findings.unconverged(run)
     if not counts:
         return None
     missed = [f'in {count} of them {what}' for what, count in counts if count]
     if missed:
-        return Check('solvers', f'Not every window is solved to its tolerance ({run.record.get("windows_done", "?")} '
-                     'windows): ' + ', '.join(missed) + '.', DOUBT)
-    return Check('solvers', 'Every window is solved to its tolerance.', HOLDS)
+        return Check('solvers', f'Not every window is solved to its tolerance ({told_windows(run)}): '
+                     + ', '.join(missed) + '.', DOUBT)
+    if findings.covers_all(run):
+        return Check('solvers', 'Every window is solved to its tolerance.', HOLDS)
+    return Check('solvers', f'The contacts of every window up to the last row are solved to their tolerance ({told_windows(run)}).',
+                 HOLDS)
+
+
+def told_windows(run):
+    done = findings.windows_done(run)
+    return f'{"?" if done is None else done} windows' + ('' if findings.covers_all(run) else ' by the rows')
 
 
 def courant(run):
@@ -90,7 +100,8 @@ def courant(run):
     if largest is None or not run.is_wet():
         return None
     warned = bool(run.warnings('courant'))
-    return Check('Courant number', f'The Courant number is {"too large: up to" if warned else "at most"} {largest:.3g}.',
+    where = '' if findings.covers_all(run) else ' in the earlier parts of the run'
+    return Check('Courant number', f'The Courant number is {"too large: up to" if warned else "at most"} {largest:.3g}{where}.',
                  DOUBT if warned else HOLDS)
 
 

@@ -252,6 +252,11 @@ class Report(RunFolderTest):
         self.assertEqual((list(line.get_ydata()), line.get_linestyle()), ([0.03, 0.03], ':'))
         self.assertGreater(figure.axes[0].get_ylim()[1], 0.03)
         self.assertEqual([text.get_text() for text in figure.axes[0].get_legend().get_texts()], [curves.LARGEST])
+        self.assertIn('Largest overlap of any window: 0.03 D (dotted)', captions.motion(run))
+        run.record['windows_done'] = 5  # of an earlier part: the last row is that of window 10
+        (figure, _), = [shown for shown in curves.panels(run, curves.MOTION, 'motion') if 'penetration' in shown[1]]
+        self.assertEqual(len(figure.axes[0].lines), 1)
+        self.assertEqual(captions.motion(run), 'Largest overlap of the earlier parts and the rows: 0.03 D.')
         plt.close('all')
 
     def test_captions_of_a_collapse(self):

@@ -78,6 +78,30 @@ class Verdict(unittest.TestCase):
         self.assertIn('grains 0.001, fluid 3e-13', said(run)['momentum'][1])
         self.assertIn('in 7 of them the contact solver missed', said(run)['solvers'][1])
 
+    def test_a_run_that_was_killed_is_judged_by_its_rows(self):
+        """run.json has no maxima: those are written at the end."""
+        rows = {'step': [0, 6], 'time': [0, 3], 'max_penetration': [0, 1e-5], 'grain_balance': [np.nan, 1e-15],
+                'unconverged': [np.nan, 7]}
+        run = run_with(record={'status': 'interrupted', 'maxima': None, 'windows_done': None}, history=rows)
+        self.assertEqual(said(run)['solvers'], (verdict.DOUBT, 'Not every window is solved to its tolerance (6 windows by the '
+                                                'rows): in 7 of them the contact solver missed its tolerance.'))
+        self.assertIn('6 of 10 windows, t = 3 t_c. Look at: solvers.', verdict.outcome(run, verdict.checks(run)))
+        self.assertEqual(said(run)['momentum'][1], 'Momentum is balanced: largest relative defect of the rows grains 1e-15.')
+        self.assertEqual(said(run)['overlaps'][1], 'Overlaps are small: at most 1e-05 D in the rows; beyond 0.2 D a run ends.')
+        run.history['unconverged'][1] = 0
+        self.assertEqual(said(run)['solvers'], (verdict.HOLDS, 'The contacts of every window up to the last row are solved to '
+                                                'their tolerance (6 windows by the rows).'))
+
+    def test_maxima_of_an_earlier_part_are_said_to_be_of_it(self):
+        rows = {'step': [0, 5, 8], 'time': [0, 2, 4], 'max_penetration': [0, 1e-5, 1e-3]}
+        run = run_with(record={'windows_done': 5}, history=rows)
+        self.assertIn('of the earlier parts and the rows grains', said(run)['momentum'][1])
+        self.assertIn('at most 0.001 D in the earlier parts and the rows', said(run)['overlaps'][1])
+        self.assertIn('at most 0.4 in the earlier parts of the run.', said(run)['Courant number'][1])
+        run.record['windows_done'] = 9  # one window more than the last row has
+        self.assertIn('of any window grains', said(run)['momentum'][1])
+        self.assertIn('Every window is', said(run)['solvers'][1])
+
     def test_the_rows_do_not_hide_what_lies_between_them(self):
         run = run_with({'penetration': 0.04, 'unconverged_windows': 9, 'grain_balance': None, 'fluid_balance': np.nan},
                        history={'time': [0, 1], 'max_penetration': [0, 1e-5], 'grain_balance': [np.nan, 1e-15],
