@@ -7,6 +7,7 @@ import captions
 import findings
 
 SMALL_OVERLAP = 0.01  # D; contacts that hold stay far below (docs/validation.md)
+SCOPE = {'done': '', 'interrupted': '', 'prepared': ' so far'}  # of the checks, by the status of run.json; of no other
 HOLDS, DOUBT, TOLD = 'holds', 'doubt', 'told'  # classes of the page's style
 
 
@@ -28,7 +29,7 @@ def outcome(run, found):
     record = run.record
     status, code, error = record.get('status', 'unknown'), record.get('exit_code'), record.get('error')
     text = f'Status: {status}' + (f', exit code {code}' if code is not None else '') + (f': {error}' if error else '')
-    return ' '.join([text.rstrip('.') + '.', *progress(run), *together(found)])
+    return ' '.join([text.rstrip('.') + '.', *progress(run), *together(run, found)])
 
 
 def progress(run):
@@ -40,11 +41,15 @@ def progress(run):
     return [f'All {planned} windows{until}.' if done == planned else f'{done} of {planned} windows{until}.']
 
 
-def together(found):
+def together(run, found):
+    """What the checks say of the run as a whole: no praise for one that a check or a fault has ended, whatever the others say."""
     doubts = [check.subject for check in found if check.css == DOUBT]
     if doubts:
         return ['Look at: ' + ', '.join(doubts) + '.']
-    return ['Every check holds.'] if any(check.css == HOLDS for check in found) else []
+    scope = SCOPE.get(run.record.get('status'))
+    if scope is None or not any(check.css == HOLDS for check in found):
+        return []
+    return [f'Every check holds{scope if findings.covers_all(run) else " as far as the rows tell"}.']
 
 
 def momentum(run):

@@ -102,6 +102,21 @@ class Verdict(unittest.TestCase):
         self.assertIn('of any window grains', said(run)['momentum'][1])
         self.assertIn('Every window is', said(run)['solvers'][1])
 
+    def test_only_what_no_fault_has_ended_is_praised(self):
+        for status, words in (('done', ' Every check holds.'), ('interrupted', ' Every check holds.'),
+                              ('prepared', ' Every check holds so far.'), ('failed', ''), ('handshake refused', ''),
+                              ('stalled', ''), ('physics refused', '')):
+            run = run_with(record={'status': status, 'exit_code': None})
+            self.assertEqual(verdict.outcome(run, verdict.checks(run)), f'Status: {status}. All 10 windows, t = 5 t_c.{words}')
+        refused = run_with({'penetration': 0.3}, {'status': 'physics refused'})
+        self.assertIn('Look at: overlaps.', verdict.outcome(refused, verdict.checks(refused)))
+
+    def test_praise_by_rows_alone_says_so(self):
+        for status in ('interrupted', 'prepared'):
+            run = run_with(record={'status': status, 'maxima': None, 'windows_done': None},
+                           history={'step': [0, 6], 'time': [0, 3], 'max_penetration': [0, 1e-5]})
+            self.assertTrue(verdict.outcome(run, verdict.checks(run)).endswith('Every check holds as far as the rows tell.'))
+
     def test_the_rows_do_not_hide_what_lies_between_them(self):
         run = run_with({'penetration': 0.04, 'unconverged_windows': 9, 'grain_balance': None, 'fluid_balance': np.nan},
                        history={'time': [0, 1], 'max_penetration': [0, 1e-5], 'grain_balance': [np.nan, 1e-15],
