@@ -132,6 +132,11 @@ class Liquid(SpaceRun):
         data.record['fluid_program'] = 'box'
         [(time, path)] = fluid_fields.field_times(data)
         self.assertEqual(time, 0.5)
+        index = self.folder / 'fluid/fields/fields.pvd'
+        whole = index.read_text()
+        index.write_text(whole[:whole.index('</Coll')])
+        self.assertEqual(fluid_fields.field_times(data), [(time, path)])
+        self.assertIn('fluid/fields/fields.pvd is cut off or damaged after 1 whole entries', data.remarks[-1])
         rows = (velocity**2).sum(axis=-1).mean(axis=(0, 2))
         self.assertAlmostEqual(fluid_fields.mean_square_velocity(data, time, path), (rows[0] + 2 * rows[1]) / 3)
 
