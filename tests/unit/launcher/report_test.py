@@ -339,6 +339,17 @@ class Report(RunFolderTest):
         self.assertAlmostEqual(surface.top_of_polygon(grains.outlines[0] + [0.25, 0], 1), 3.5)
         self.assertAlmostEqual(surface.top_of_polygon(grains.outlines[0] + [0.25, 0], 0), 3.25)
 
+    def test_what_reaches_through_a_cyclic_side_is_part_of_the_surface(self):
+        """A square that stands on a corner at x = 0.2 D, and a disc at 3.9 D of 4 D."""
+        square = np.array([[0.2, 3.5], [-0.3, 3.0], [0.2, 2.5], [0.7, 3.0]])
+        grains = grain_files.Grains(0.0, np.array([[0.2, 3.0], [3.9, 1.0]]), np.array([0.5, 0.5]), outlines={0: square})
+        reaching = 1.0 + np.sqrt(0.25 - 0.01)
+        for side, first, last in (('wall', 3.5, 1.5), ('cyclic', 3.5, 3.3)):
+            data = run_data.RunData(self.folder, case={'domain.size': '[4, 6]', 'domain.left': side})
+            np.testing.assert_allclose(surface.surface(data, grains)[1], [first, 0.0, 0.0, last])
+        grains = grain_files.Grains(0.0, np.array([[3.9, 1.0]]), np.array([0.5]))
+        np.testing.assert_allclose(surface.surface(data, grains)[1], [reaching, 0.0, 0.0, 1.5])
+
     def test_parts_of_an_instant_are_one(self):
         self.write('grains/grains.pvd', '<VTKFile><Collection>'
                    '<DataSet timestep="2" part="0" file="grains_7.vtp"/>'
