@@ -6,6 +6,9 @@ import numpy as np
 
 # At rest: the mean speed stays below this fraction of its maximum.
 REST_FRACTION = 0.01
+# Two times are the same within this fraction: series of files tell nine digits, rows ten, and folders of OpenFOAM sums of
+# its steps.
+SAME_TIME = 1e-8
 # (column, name) of the parts of a window's wall time.
 PARTICIPANTS = [('wall_fluid', 'fluid'), ('wall_grains', 'grains'), ('wall_coupling', 'coupling')]
 # Numbers in the record of a run: windows in which a solver stopped before its tolerance.
@@ -27,9 +30,14 @@ def rest_time(run):
 
 
 def is_at_rest(run, time):
-    """Whether an output [t_c] is of grains at rest. Series of files tell their times with nine digits, rows with ten."""
+    """Whether an output [t_c] is of grains at rest."""
     since = rest_time(run)
-    return since is not None and time >= since * (1.0 - 1e-8)
+    return since is not None and time >= since * (1.0 - SAME_TIME)
+
+
+def until(times, end):
+    """Which of some outputs, or whether one, is not after a time of the rows [t_c]."""
+    return times <= end * (1.0 + SAME_TIME)
 
 
 def half_fall(run):

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import findings
 import fluid_fields
 import run_data
 import solid
@@ -125,5 +126,5 @@ def while_starting(run):
     found, half = probes(run), peaks.half_time(run)
     if found is None or half is None or not run.is_avalanche():
         return None
-    early = found.values[(found.time > 0.0) & (found.time <= half), -1]
+    early = found.values[(found.time > 0.0) & findings.until(found.time, half), -1]
     return (float(early.min()), float(early.max())) if len(early) else None
