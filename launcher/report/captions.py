@@ -126,7 +126,8 @@ def motion(run):
     text = []
     overlap = findings.largest(run, 'max_penetration', 'penetration')
     if overlap is not None:
-        text.append(f'Largest overlap of any window: {overlap:.3g} D (dotted); the curve has the windows with output.')
+        text.append(f'Largest overlap of any window: {overlap:.3g} D (dotted); the curve has the windows with output.'
+                    if findings.covers_all(run) else f'Largest overlap of {findings.extent(run)}: {overlap:.3g} D.')
     contacts = run.end('contacts')
     if contacts is not None:
         text.append(f'Contacts with an impulse at the end: {contacts:.0f}.')
@@ -154,7 +155,8 @@ def solvers(run):
     defects = [(name, findings.largest(run, column, column)) for name, column in balances]
     told = ', '.join(f'{name} {defect:.2g}' for name, defect in defects if defect is not None)
     if told:
-        text.append(f'Largest momentum defect of any window (dotted): {told}.')
+        dotted = ' (dotted)' if findings.covers_all(run) else ''
+        text.append(f'Largest momentum defect of {findings.extent(run)}{dotted}: {told}.')
     divergence = findings.largest(run, 'divergence', 'divergence')
     if divergence is not None and run.is_wet():
         text.append(f'Largest divergence after step 1: {divergence:.2g} u_c/D.')

@@ -185,6 +185,10 @@ def as_csv(measured):
     return text.getvalue()
 
 
+def overlap(run):
+    return findings.largest(run, 'max_penetration', 'penetration')
+
+
 def described(comparison, member, wall):
     """A member for the JSON."""
     first = comparison.wall[0]
@@ -195,8 +199,8 @@ def described(comparison, member, wall):
             'wall_seconds': wall[0], 'wall_ratio': ratio(wall[0], first[0]),
             'window_seconds': wall[1], 'window_ratio': ratio(wall[1], first[1]),
             'rest_time': findings.rest_time(member.data),
-            'penetration': findings.largest(member.data, 'max_penetration', 'penetration'),
-            'unconverged_windows': findings.largest(member.data, '', 'unconverged_windows'),
+            'penetration': findings.of_worst(member.runs, overlap),
+            'unconverged_windows': findings.of_worst(member.runs, findings.unconverged_windows),
             'peak': asdict(peak) if peak else None,
             'measured': {one.name: [one.of(run) for run in member.runs] for one in MEASURED},
             'surface': {name: getattr(top, name).tolist() for name in ('x', 'height', 'low', 'high')}

@@ -102,8 +102,8 @@ def overview(comparison):
     """Rows: a name, then one cell per member."""
     members, wall = comparison.members, comparison.wall
     rest = [findings.rest_time(member.data) for member in members]
-    maxima = lambda name, column: [number(findings.largest(member.data, column, name))
-                                   for member in members]
+    worst = lambda measure: [number(findings.of_worst(member.runs, measure)) for member in members]
+    maxima = lambda name, column: worst(lambda run: findings.largest(run, column, name))
     wet = lambda name, column: [text if member.data.is_wet() else '' for text, member in
                                 zip(maxima(name, column), members)]
     totals, windows = [total for total, _ in wall], [window for _, window in wall]
@@ -116,7 +116,7 @@ def overview(comparison):
         ['wall time of a window [s]'] + with_ratios(windows),
         ['at rest from [t_c]'] + ['not at rest' if value is None else number(value) for value in rest],
         ['largest overlap of any window [D]'] + maxima('penetration', 'max_penetration'),
-        ['windows beyond contact.tolerance'] + maxima('unconverged_windows', ''),
+        ['windows beyond contact.tolerance'] + worst(findings.unconverged_windows),
         ['largest defect of the grains\' momentum'] + maxima('grain_balance', 'grain_balance'),
         ['largest defect of the fluid\'s momentum'] + wet('fluid_balance', 'fluid_balance'),
         ['largest Courant number'] + wet('courant', ''),

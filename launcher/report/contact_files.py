@@ -14,7 +14,7 @@ def networks(run):
     index = run.folder / 'grains' / 'contacts.pvd'
     if not index.exists():
         return []
-    contacts, grains = grain_files.series(index), dict(grain_files.grain_series(run))
+    contacts, grains = grain_files.series(run, index), dict(grain_files.grain_series(run))
     both = [(time, path, grains[time]) for time, path in contacts if time in grains]
     chosen = {int(round(i)) for i in np.linspace(0, len(both) - 1, MOST_NETWORKS + 1)[1:]} if both else ()
     found = []

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import matplotlib.pyplot as plt
 import numpy as np
 
+import findings
 from analysis import relaxation
 
 # Residuals of single contacts are round-off; drawn at their value they would compress all other curves.
@@ -136,7 +137,7 @@ def draw(plot, run, axes):
 
 def draw_largest(run, curve, axes, colour):
     """Dotted, in the colour of the curve: between two rows there may be windows with larger values."""
-    value = (run.record.get('maxima') or {}).get(curve.largest)
+    value = findings.recorded(run, curve.largest) if findings.covers_all(run) else None
     if value:
         said = LARGEST in axes.get_legend_handles_labels()[1]
         axes.axhline(value, color=colour, linestyle=':', linewidth=1.2, label=None if said else LARGEST)

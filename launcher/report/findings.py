@@ -6,6 +6,9 @@ import numpy as np
 
 # At rest: the mean speed stays below this fraction of its maximum.
 REST_FRACTION = 0.01
+# Two times are the same within this fraction: series of files tell nine digits, rows ten, and folders of OpenFOAM sums of
+# its steps.
+SAME_TIME = 1e-8
 # (column, name) of the parts of a window's wall time.
 PARTICIPANTS = [('wall_fluid', 'fluid'), ('wall_grains', 'grains'), ('wall_coupling', 'coupling')]
 # Numbers in the record of a run: windows in which a solver stopped before its tolerance.
@@ -27,9 +30,14 @@ def rest_time(run):
 
 
 def is_at_rest(run, time):
-    """Whether an output [t_c] is of grains at rest. Series of files tell their times with nine digits, rows with ten."""
+    """Whether an output [t_c] is of grains at rest."""
     since = rest_time(run)
-    return since is not None and time >= since * (1.0 - 1e-8)
+    return since is not None and time >= since * (1.0 - SAME_TIME)
+
+
+def until(times, end):
+    """Which of some outputs, or whether one, is not after a time of the rows [t_c]."""
+    return times <= end * (1.0 + SAME_TIME)
 
 
 def half_fall(run):
@@ -42,19 +50,54 @@ def half_fall(run):
     return float(np.interp(half, height[[after, after - 1]], time[[after, after - 1]]))
 
 
+def recorded(run, name):
+    """One of the `maxima` of run.json; None without it."""
+    value = (run.record.get('maxima') or {}).get(name)
+    return None if value is None or np.isnan(value) else value
+
+
 def largest(run, column, in_record=None):
-    """Largest value of a quantity, over all windows if run.json has it, else over the rows; or None."""
-    recorded = (run.record.get('maxima') or {}).get(in_record) if in_record else None
-    if recorded is not None:
-        return float(recorded)
+    """Largest value of a quantity over all windows that run.json or the rows of the history tell of; or None. A run that is
+    at work or was killed has its maxima only in the rows, and in run.json perhaps those of an earlier part."""
     _, values = run.column(column)
-    return float(values.max()) if len(values) else None
+    known = [recorded(run, in_record), values.max() if len(values) else None]
+    return max((float(value) for value in known if value is not None), default=None)
+
+
+def unconverged_windows(run):
+    """Number of windows whose contact solve missed its tolerance, by run.json or by the rows, whichever has more; or None."""
+    _, since = run.column('unconverged')
+    known = [recorded(run, 'unconverged_windows'), since.sum() if len(since) else None]
+    return max((int(count) for count in known if count is not None), default=None)
 
 
 def unconverged(run):
     """(what happened, number of windows) of the solvers that the run tells of."""
-    maxima = run.record.get('maxima') or {}
-    return [(what, maxima[name]) for name, what in UNCONVERGED if maxima.get(name) is not None]
+    counts = {name: recorded(run, name) for name, _ in UNCONVERGED} | {'unconverged_windows': unconverged_windows(run)}
+    return [(what, counts[name]) for name, what in UNCONVERGED if counts[name] is not None]
+
+
+def windows_done(run):
+    """By run.json, or by the last row where that is later; None if neither tells it."""
+    _, steps = run.column('step')
+    known = [run.record.get('windows_done'), steps[-1] if len(steps) else None]
+    return max((int(count) for count in known if count is not None), default=None)
+
+
+def covers_all(run):
+    """Whether the maxima of run.json are over all windows that the run tells of. One that was killed or is at work has none
+    there, or those of its earlier part."""
+    return bool(run.record.get('maxima')) and run.record.get('windows_done') in (None, windows_done(run))
+
+
+def extent(run):
+    """Which windows the largest values are of, to be put after "of" or "in"."""
+    return 'any window' if covers_all(run) else 'the earlier parts and the rows' if run.record.get('maxima') else 'the rows'
+
+
+def of_worst(runs, measure):
+    """The largest value of measure(run) over some runs; None if none has it."""
+    return max((value for value in map(measure, runs) if value is not None), default=None)
 
 
 @dataclass

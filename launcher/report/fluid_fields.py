@@ -28,7 +28,7 @@ def field_times(run):
     if not run.is_wet():
         return []
     if run.record.get('fluid_program') == 'box':
-        return [(time, path) for time, _, path in rectilinear.entries(fluid / 'fields' / 'fields.pvd')]
+        return [(time, path) for time, _, path in rectilinear.entries(run, fluid / 'fields' / 'fields.pvd')]
     found = {}
     for parent in processor_fields.time_parents(fluid) if fluid.exists() else []:
         for entry in parent.iterdir():

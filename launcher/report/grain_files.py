@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import run_data
+
 
 @dataclass
 class Grains:
@@ -40,7 +42,7 @@ def grain_series(run):
     if not index.exists():
         run.remarks.append('grains/grains.pvd is missing: pictures have no grains.')
         return []
-    return series(index)
+    return series(run, index)
 
 
 def quiet_series(run):
@@ -54,10 +56,10 @@ def grains_at(run, time):
     return read_grains(*near[0]) if near else None
 
 
-def series(index):
+def series(run, index):
     """(time, path) of the first part of every output."""
     return [(float(entry.get('timestep')), index.parent / entry.get('file'))
-            for entry in ElementTree.parse(index).iter('DataSet') if entry.get('part', '0') == '0']
+            for entry in run_data.series_entries(run, index) if entry.get('part', '0') == '0']
 
 
 def read_grains(time, path):

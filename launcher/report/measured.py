@@ -87,7 +87,7 @@ MEASURED = [
     Measured('grain_balance', 'Defect of the grains\' momentum', RELATIVE, RELATIVE,
              maximum('grain_balance', 'grain_balance')),
     Measured('unconverged_windows', 'Windows beyond contact.tolerance', 'windows', 'windows',
-             maximum('', 'unconverged_windows')),
+             findings.unconverged_windows),
     Measured('wall_seconds', 'Wall time', 'seconds', 's', lambda run: findings.wall_seconds(run)[0]),
     Measured('run_out', 'Run-out', r'$(L - L_0)\,/\,L_0$', RELATIVE, of_found(deposit.deposit, 'run_out')),
     Measured('heap_height', 'Height of the heap', r'$H\,/\,D$', 'D', of_found(deposit.deposit, 'top')),

@@ -187,11 +187,27 @@ def read_units(path):
 
 
 def read_history(path):
-    """Columns by name; empty cells become nan."""
+    """Columns by name; empty cells become nan. A last row without its end of line is left out: a kill or a full disk cut it
+    off, and its last number may be half of one."""
     with open(path, newline='') as file:
-        table = csv.DictReader(file)
+        table = csv.DictReader(line for line in file if line.endswith('\n'))
         names, rows = table.fieldnames or [], list(table)
     if 'time' not in names:
         raise ValueError('it has no column "time"')
     number = lambda text: float(text) if text not in (None, '') else np.nan
     return {name: np.array([number(row[name]) for row in rows]) for name in names}
+
+
+def series_entries(run, index):
+    """The entries (`timestep`, `part`, `file`) of the index of a series (.pvd). A kill, a full disk or a run at work may have
+    left it without its end: then those that are whole, and a remark."""
+    found = []
+    try:
+        for _, element in ElementTree.iterparse(index):
+            if element.tag == 'DataSet':
+                found.append(element)
+    except ElementTree.ParseError as error:
+        remark = f'{index.relative_to(run.folder)} is cut off or damaged after {len(found)} whole entries: {error}'
+        if remark not in run.remarks:
+            run.remarks.append(remark)
+    return found

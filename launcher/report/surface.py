@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The free surface of a heap: its highest point in each column of width D."""
+import itertools
+
 import numpy as np
 
 import curves
@@ -15,14 +17,20 @@ def surface(run, grains):
     centres, radii = grains.centres / diameter, grains.radii / diameter
     columns = int(np.ceil(run.size()[0]))
     heights = np.zeros(columns)
-    for i, (centre, radius) in enumerate(zip(centres, radii)):
-        corners = (grains.outlines or {}).get(i)
-        first, last = int(np.floor(centre[0] - radius)), int(np.floor(centre[0] + radius))
+    for i, shift in itertools.product(range(len(radii)), images(run)):
+        corners, centre = (grains.outlines or {}).get(i), centres[i] + shift
+        first, last = int(np.floor(centre[0] - radii[i])), int(np.floor(centre[0] + radii[i]))
         for column in range(max(first, 0), min(last, columns - 1) + 1):
-            top = top_of_disc(centre, radius, column) if corners is None else top_of_polygon(
-                corners / diameter, column)
+            top = top_of_disc(centre, radii[i], column) if corners is None else top_of_polygon(
+                corners / diameter + shift, column)
             heights[column] = max(heights[column], top)
     return np.arange(columns) + 0.5, heights
+
+
+def images(run):
+    """Shifts of a grain to itself and its images beyond cyclic sides [D]."""
+    length = run.size()[0]
+    return [(x, 0.0) for x in ((0.0, length, -length) if run.case.get('domain.left') == 'cyclic' else (0.0,))]
 
 
 def top_of_disc(centre, radius, column):

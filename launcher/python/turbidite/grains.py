@@ -43,12 +43,11 @@ def contacts(data):
 
 def entries_of(data, name):
     index = data.folder / 'grains' / f'{name}.pvd'
-    try:
-        entries = reader('grain_files').series(index) if index.exists() else []
-    except SyntaxError as error:  # of XML
-        raise NotThere(f'{index} cannot be read: {error}. A run at work may be writing it: try again') from None
+    if not index.exists():
+        raise NotThere(f'{data.folder} has no {name}: {index} is missing')
+    entries = reader('grain_files').series(data, index)
     if not entries:
-        raise NotThere(f'{data.folder} has no {name}: {index} is missing or empty')
+        raise NotThere(f'{data.folder} has no {name}: {index} holds no whole entry. A run at work may be writing it: try again')
     return entries
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import findings
 from analysis import peaks
 from analysis import packing_triangles, snapshots
 from analysis.once import once_per_run
@@ -48,7 +49,7 @@ def initial_angle(run):
     found, half = dilatancy(run), peaks.half_time(run)
     if found is None or half is None:
         return None
-    early = found.time <= half + 1e-9
+    early = findings.until(found.time, half)
     if early.sum() < 2:
         return None
     growth, shear = (np.trapz(rate[early], found.time[early]) for rate in (found.growth, found.shear))

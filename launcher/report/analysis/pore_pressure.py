@@ -6,12 +6,13 @@ whole column of height H; rho_s is the mean density of the grains at first. Nega
 together, positive ones carry one that contracts (Topin et al. 2011, section 3.3). In a closed box the level of a
 pressure means nothing: there it is taken relative to the upper right corner.
 """
-import csv
 from dataclasses import dataclass
 
 import numpy as np
 
+import findings
 import fluid_fields
+import run_data
 import solid
 from analysis import peaks
 from analysis import snapshots
@@ -86,16 +87,14 @@ def has_written_probes(run):
 
 
 def written_probes(run):
-    with open(run.folder / 'probes.csv', newline='') as file:
-        rows = list(csv.DictReader(file))
+    rows = run_data.read_history(run.folder / 'probes.csv')
     places = np.array([float(v) for v in run.case['output.probes'].strip('[]').split(',')])
     places = places.reshape(-1, 3 if run.in_space() else 2)
-    if not rows:
+    if not len(rows['time']):
         return None
-    speed = run.scale('u_c')
-    values = np.array([[float(row[f'pressure_{k + 1}']) for k in range(len(places))] for row in rows]) * speed**2 / unit(run)
+    values = np.column_stack([rows[f'pressure_{k + 1}'] for k in range(len(places))]) * run.scale('u_c')**2 / unit(run)
     names = [f'({", ".join(f"{x:g}" for x in place)}) D' for place in places]
-    return Probes(names, places, np.array([float(row['time']) for row in rows]), values)
+    return Probes(names, places, rows['time'], values)
 
 
 def field_probes(run):
@@ -127,5 +126,5 @@ def while_starting(run):
     found, half = probes(run), peaks.half_time(run)
     if found is None or half is None or not run.is_avalanche():
         return None
-    early = found.values[(found.time > 0.0) & (found.time <= half), -1]
+    early = found.values[(found.time > 0.0) & findings.until(found.time, half), -1]
     return (float(early.min()), float(early.max())) if len(early) else None

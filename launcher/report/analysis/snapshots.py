@@ -68,7 +68,7 @@ def snapshots(run):
     """At most 41 of the outputs, evenly spaced, the first and the last among them; without the damaged ones."""
     series = grain_files.quiet_series(run)
     index = run.folder / 'grains' / 'contacts.pvd'
-    contacts = dict(grain_files.series(index)) if index.exists() else {}
+    contacts = dict(grain_files.series(run, index)) if index.exists() else {}
     found = []
     for time, path in [series[i] for i in evenly(len(series))]:
         try:

@@ -7,6 +7,7 @@ import captions
 import findings
 
 SMALL_OVERLAP = 0.01  # D; contacts that hold stay far below (docs/validation.md)
+SCOPE = {'done': '', 'interrupted': '', 'prepared': ' so far'}  # of the checks, by the status of run.json; of no other
 HOLDS, DOUBT, TOLD = 'holds', 'doubt', 'told'  # classes of the page's style
 
 
@@ -28,11 +29,11 @@ def outcome(run, found):
     record = run.record
     status, code, error = record.get('status', 'unknown'), record.get('exit_code'), record.get('error')
     text = f'Status: {status}' + (f', exit code {code}' if code is not None else '') + (f': {error}' if error else '')
-    return ' '.join([text.rstrip('.') + '.', *progress(run), *together(found)])
+    return ' '.join([text.rstrip('.') + '.', *progress(run), *together(run, found)])
 
 
 def progress(run):
-    done, planned = run.record.get('windows_done'), run.record.get('windows')
+    done, planned = findings.windows_done(run), run.record.get('windows')
     if done is None or planned is None:
         return []
     step = float(run.case.get('time.step') or 0.0)
@@ -40,11 +41,15 @@ def progress(run):
     return [f'All {planned} windows{until}.' if done == planned else f'{done} of {planned} windows{until}.']
 
 
-def together(found):
+def together(run, found):
+    """What the checks say of the run as a whole: no praise for one that a check or a fault has ended, whatever the others say."""
     doubts = [check.subject for check in found if check.css == DOUBT]
     if doubts:
         return ['Look at: ' + ', '.join(doubts) + '.']
-    return ['Every check holds.'] if any(check.css == HOLDS for check in found) else []
+    scope = SCOPE.get(run.record.get('status'))
+    if scope is None or not any(check.css == HOLDS for check in found):
+        return []
+    return [f'Every check holds{scope if findings.covers_all(run) else " as far as the rows tell"}.']
 
 
 def momentum(run):
@@ -56,32 +61,42 @@ def momentum(run):
         return None
     beyond = [f'{key} = {run.case[key]}' for _, key, defect in defects if key in run.case and defect > float(run.case[key])]
     told = ', '.join(f'{name} {defect:.2g}' for name, _, defect in defects)
+    largest = f'largest relative defect of {findings.extent(run)} {told}'
     if beyond:
-        return Check('momentum', f'Momentum is not balanced: largest relative defect of any window {told}, beyond '
-                     + ', '.join(beyond) + '.', DOUBT)
-    return Check('momentum', f'Momentum is balanced: largest relative defect of any window {told}.', HOLDS)
+        return Check('momentum', f'Momentum is not balanced: {largest}, beyond {", ".join(beyond)}.', DOUBT)
+    return Check('momentum', f'Momentum is balanced: {largest}.', HOLDS)
 
 
 def overlap(run):
     deepest = findings.largest(run, 'max_penetration', 'penetration')
     if deepest is None:
         return None
+    told = f'{deepest:.3g} D' + ('' if findings.covers_all(run) else f' in {findings.extent(run)}')
     allowed = f'; beyond {run.case["limits.penetration"]} D a run ends' if 'limits.penetration' in run.case else ''
     if deepest > SMALL_OVERLAP:
-        return Check('overlaps', f'Overlaps are large: up to {deepest:.3g} D{allowed}.', DOUBT)
-    return Check('overlaps', f'Overlaps are small: at most {deepest:.3g} D{allowed}.', HOLDS)
+        return Check('overlaps', f'Overlaps are large: up to {told}{allowed}.', DOUBT)
+    return Check('overlaps', f'Overlaps are small: at most {told}{allowed}.', HOLDS)
 
 
 def solves(run):
-    """Of all solvers of the run; one that stopped early leaves its error in the result."""
+    """Of all solvers of the run; one that stopped early leaves its error in the result. The rows tell of the contact solver
+    alone, in all windows up to the last row."""
     counts = findings.unconverged(run)
     if not counts:
         return None
     missed = [f'in {count} of them {what}' for what, count in counts if count]
     if missed:
-        return Check('solvers', f'Not every window is solved to its tolerance ({run.record.get("windows_done", "?")} '
-                     'windows): ' + ', '.join(missed) + '.', DOUBT)
-    return Check('solvers', 'Every window is solved to its tolerance.', HOLDS)
+        return Check('solvers', f'Not every window is solved to its tolerance ({told_windows(run)}): '
+                     + ', '.join(missed) + '.', DOUBT)
+    if findings.covers_all(run):
+        return Check('solvers', 'Every window is solved to its tolerance.', HOLDS)
+    return Check('solvers', f'The contacts of every window up to the last row are solved to their tolerance ({told_windows(run)}).',
+                 HOLDS)
+
+
+def told_windows(run):
+    done = findings.windows_done(run)
+    return f'{"?" if done is None else done} windows' + ('' if findings.covers_all(run) else ' by the rows')
 
 
 def courant(run):
@@ -90,7 +105,8 @@ def courant(run):
     if largest is None or not run.is_wet():
         return None
     warned = bool(run.warnings('courant'))
-    return Check('Courant number', f'The Courant number is {"too large: up to" if warned else "at most"} {largest:.3g}.',
+    where = '' if findings.covers_all(run) else ' in the earlier parts of the run'
+    return Check('Courant number', f'The Courant number is {"too large: up to" if warned else "at most"} {largest:.3g}{where}.',
                  DOUBT if warned else HOLDS)
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The free surface of a heap of spheres: the highest point in each column of one D x D."""
+"""The free surface of a heap of spheres: the highest point in each column of one D x D. The last column is as wide as the box
+has room for it."""
 import numpy as np
 
 BARE = 0.5  # D: a mean height below this counts as bare floor, with single spheres on it
@@ -8,28 +9,45 @@ BARE = 0.5  # D: a mean height below this counts as bare floor, with single sphe
 def heights(run, grains):
     """(columns along x, columns along z), in D; 0 where there is no grain."""
     diameter = run.scale('D')
-    centres, radii = grains.positions() / diameter, grains.radii / diameter
-    shape = int(np.ceil(run.size()[0])), int(np.ceil(run.depth()))
+    centres, radii = with_images(run, grains.positions() / diameter, grains.radii / diameter)
+    ends = np.array([run.size()[0], run.depth()])
+    shape = tuple(np.ceil(ends).astype(int))
     found = np.zeros(shape)
     reach = int(np.ceil(radii.max())) if len(radii) else 0
     own = np.floor(centres[:, [0, 2]]).astype(int)
     for i in range(-reach, reach + 1):
         for k in range(-reach, reach + 1):
             column = own + (i, k)
-            top = tops(centres, radii, column)
+            top = tops(centres, radii, column, np.minimum(column + 1.0, ends))
             there = (top > 0.0) & (column >= 0).all(axis=1) & (column < shape).all(axis=1)
             np.maximum.at(found, tuple(column[there].T), top[there])
     return found
 
 
-def tops(centres, radii, column):
-    """Highest point of each sphere above its column; 0 if it does not reach it."""
-    nearest = np.clip(centres[:, [0, 2]], column, column + 1.0) - centres[:, [0, 2]]
+def with_images(run, centres, radii):
+    """Centres and radii, and those of the images of spheres that reach through a cyclic side."""
+    for axis, side, length in ((0, 'left', run.size()[0]), (2, 'front', run.depth())):
+        if run.case.get(f'domain.{side}') != 'cyclic':
+            continue
+        centres = centres.copy()
+        centres[:, axis] %= length
+        shift = np.eye(3)[axis] * length
+        low, high = centres[:, axis] < radii, centres[:, axis] > length - radii
+        centres = np.concatenate([centres, centres[low] + shift, centres[high] - shift])
+        radii = np.concatenate([radii, radii[low], radii[high]])
+    return centres, radii
+
+
+def tops(centres, radii, begin, end):
+    """Highest point of each sphere above its column, between two corners (x, z); 0 if it does not reach it."""
+    nearest = np.clip(centres[:, [0, 2]], begin, end) - centres[:, [0, 2]]
     below = radii**2 - (nearest**2).sum(axis=1)
     return np.where(below > 0.0, centres[:, 1] + np.sqrt(np.maximum(0.0, below)), 0.0)
 
 
 def over_length(run, grains):
     """(middles of the columns along x, their mean height over the depth), both in D; 0 where the floor is bare."""
-    mean = heights(run, grains).mean(axis=1)
+    found, depth = heights(run, grains), run.depth()
+    widths = np.minimum(1.0, depth - np.arange(found.shape[1]))
+    mean = found @ widths / depth
     return np.arange(len(mean)) + 0.5, np.where(mean < BARE, 0.0, mean)

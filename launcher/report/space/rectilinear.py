@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Files of the fluid's slices, and of the box program's fields: VTK RectilinearGrids and their series (.pvd)."""
 import re
-import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 
+import run_data
 
-def entries(index):
+
+def entries(run, index):
     """(time, part, path) of every file of a series that is there; empty without the series."""
     if not index.exists():
         return []
     found = [(float(entry.get('timestep')), int(entry.get('part')), index.parent / entry.get('file'))
-             for entry in ElementTree.parse(index).iter('DataSet')]
+             for entry in run_data.series_entries(run, index)]
     return [entry for entry in found if entry[2].exists()]
 
 

@@ -46,7 +46,7 @@ class Slice:
 def series(run):
     """[[(time, path), ...] of each plane], in the order of output.slices; empty without any."""
     planes = {}
-    for time, part, path in rectilinear.entries(run.folder / 'fluid' / 'slices' / 'slices.pvd'):
+    for time, part, path in rectilinear.entries(run, run.folder / 'fluid' / 'slices' / 'slices.pvd'):
         planes.setdefault(part, []).append((time, path))
     return [planes[part] for part in sorted(planes)]
 

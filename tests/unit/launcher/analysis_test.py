@@ -408,6 +408,17 @@ class DilatancyAngles(unittest.TestCase):
         angles = dilatancy.dilatancy(data).angles()
         self.assertAlmostEqual(float(angles[0]), np.degrees(np.arcsin(0.05 / np.hypot(0.05, 0.2))))
 
+    def test_the_angle_of_the_start_is_until_half_of_the_peak(self):
+        """The row is at 33.33333333 t_c, with ten digits; the series of grains tells nine of another rounding."""
+        data = run(time=[0, 33.33333333, 50], mean_velocity_norm=[0, 0.5, 1])
+        for time, grown in ((33.3333334, 0.1), (33.34, None)):
+            data.measured['analysis.dilatancy.dilatancy'] = dilatancy.Dilatancy(
+                np.array([0.0, time, 50.0]), np.array([0.1, 0.1, 0.9]), np.ones(3))
+            found = dilatancy.initial_angle(data)
+            self.assertEqual(found is None, grown is None)
+            if grown is not None:
+                self.assertAlmostEqual(found, np.degrees(np.arcsin(grown)))
+
     def test_rest_has_none(self):
         self.assertIsNone(dilatancy.dilatancy(with_snapshots(run(), snapshot(lattice(5, 5)))))
 
@@ -487,6 +498,14 @@ class Pressures(unittest.TestCase):
         data.measured['analysis.pore_pressure.probes'] = pore_pressure.Probes(
             ['a', 'b'], np.zeros((2, 2)), np.arange(7.0), np.column_stack([100.0 + inside, inside]))
         self.assertEqual(pore_pressure.while_starting(data), (-3.0, 1.0))
+
+    def test_times_of_folders_are_those_of_rows_but_for_rounding(self):
+        """The row of half of the peak is at 5 t_c, the field of it at 5.00000000008 t_c."""
+        data = run(time=[0, 2.5, 5, 7.5, 10], mean_velocity_norm=[0, 0.1, 0.5, 1, 1])
+        for time, highest in ((5.00000000008, 7.0), (5.0, 7.0), (4.99999999992, 7.0), (5.00001, 3.0)):
+            data.measured['analysis.pore_pressure.probes'] = pore_pressure.Probes(
+                ['a'], np.zeros((1, 2)), np.array([2.5, time, 7.5]), np.array([[3.0], [7.0], [9.0]]))
+            self.assertEqual(pore_pressure.while_starting(data), (3.0, highest), time)
 
     def test_extremes_are_those_after_the_start(self):
         """Fields begin with the packing at rest, at t = 0; probes.csv does not."""

@@ -199,6 +199,7 @@ class Compare(RunFolderTest):
             {'value': value, 'time': 2.0} for value in (1.0, 2.0, 3.0)]})
         self.assertAlmostEqual(mean['penetration'], 3e-4)  # the largest of the three
         self.assertEqual(mean['unconverged_windows'], 3)
+        self.assertEqual(mean['measured']['unconverged_windows'], [1, 2, 3])
         self.assertEqual(mean['quantities']['contact_iterations']['end_value'], 7)
         # Mean: a triangle of height 2; the other: of height 1. The difference is half the peak, 1/4 on average.
         pair, = result['mean_velocity_pairs']
@@ -209,6 +210,17 @@ class Compare(RunFolderTest):
         self.assertIn('dense: mean of dense-seed1 (seed 1), dense-seed2 (seed 2), dense-seed3 (seed 3)',
                       page)
         self.assertIn('1, 2, 3', page)
+
+    def test_the_worst_run_of_a_group_is_not_averaged_away(self):
+        """One of them was killed: its largest values are in its rows alone."""
+        for seed in (1, 2):
+            self.write_seed(f'dense-seed{seed}', seed, 1.0)
+        self.write('dense-seed2/run.json', json.dumps({'status': 'interrupted'}))
+        self.write('dense-seed2/history.csv', 'step,time,mean_velocity_norm,max_penetration,unconverged\n'
+                   '0,0,0,,\n10,1,0.5,0.02,7\n20,2,1,0.01,0\n')
+        self.assertEqual(self.run_it('dense-seed1', 'dense-seed2'), (0, ''))
+        mean, = self.result()['runs']
+        self.assertEqual((mean['penetration'], mean['unconverged_windows']), (0.02, 7))
 
     def test_groups_are_called_after_what_their_folders_have_in_common(self):
         for names, common in ((('friction-0.3-seed-10', 'friction-0.3-seed-11', 'friction-0.3-seed-12'), 'friction-0.3'),

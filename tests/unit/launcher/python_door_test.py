@@ -91,6 +91,8 @@ class Tables(Door):
             self.made_up().probes
         self.write('probes.csv', 'time,pressure_1\n1,0.25\n')
         self.assertEqual(list(turbidite.load(self.folder).probes['pressure_1']), [0.25])
+        self.write('probes.csv', 'time,pressure_1\n1,0.25\n2,0.')  # a kill cut it off
+        self.assertEqual(list(turbidite.load(self.folder).probes['pressure_1']), [0.25])
 
 
 class Case(Door):
@@ -204,6 +206,11 @@ class Grains(Door):
         self.write('grains/grains.pvd', '<VTKFile><Coll')
         with self.assertRaisesRegex(turbidite.NotThere, 'at work'):
             self.run_folder.grains
+        whole = series((0, 'a.vtp'), (0.02, 'b.vtp'))
+        self.write('grains/grains.pvd', whole[:whole.index('b.vtp')])
+        run = turbidite.load(self.folder)
+        self.assertEqual(run.grains.times.tolist(), [0.0])
+        self.assertIn('after 1 whole entries', ' '.join(run.remarks))
 
     def test_contacts(self):
         with self.assertRaisesRegex(turbidite.NotThere, 'no contacts'):

@@ -18,7 +18,7 @@ import fluid_fields
 import grain_drawing
 import grain_files
 import pictures
-from analysis import relaxation
+from analysis import pore_pressure, relaxation
 import report
 import run_data
 import surface
@@ -140,6 +140,45 @@ class Report(RunFolderTest):
         self.write('fluid/0/U', foam_file(True)[:400])
         self.assertIn('U is cut off', self.make())
 
+    def test_a_row_that_was_cut_off_is_left_out(self):
+        """What is left of its last number looks like a number."""
+        self.write_all()
+        history = self.folder / 'history.csv'
+        whole = history.read_text()
+        for end in ('20,2,-0.3,0.0', '20,2', '20,2,-0.3,0.0123,2.5,0,1e-4,0.1,0.06,0.0'):
+            history.write_text(whole + end)
+            self.assertEqual(run_data.load_run(self.folder).history['time'].tolist(), [0.0, 1.0], end)
+        history.write_text('step,ti')
+        self.assertIn('history.csv cannot be read: it has no column "time"', self.make())
+
+    def test_probes_that_were_cut_off_have_their_whole_rows(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('grains:', 'output:\n  probes: [1, 2]  # D\ngrains:\n  density_ratio: 1.5'))
+        for end in ('1.5,-', '1.5,2,0.', '1.5'):
+            self.write('probes.csv', 'time,pressure_1,velocity_x_1,velocity_y_1\n0.5,1,0,0\n1,3,0,0\n' + end)
+            found = pore_pressure.probes(run_data.load_run(self.folder))
+            self.assertEqual((found.time.tolist(), found.values.tolist()), ([0.5, 1.0], [[2.0], [6.0]]), end)
+            page = self.make()
+            self.assertIn('Pore pressure', page)
+            self.assertNotIn('cannot be measured', page)
+        self.write('probes.csv', 'time,pressure_1,velocity_x_1,velocity_y_1\n0.5,1')
+        self.assertNotIn('Pore pressure', self.make())
+
+    def test_a_series_that_was_cut_off_has_its_whole_outputs(self):
+        self.write_all()
+        index = self.folder / 'grains/grains.pvd'
+        whole = index.read_text()
+        for end, times in (('</Collection', [0.0, 1.0]), ('001.vtp', [0.0]), ('vtp"/><DataSet', [])):
+            index.write_text(whole[:whole.index(end)])
+            run = run_data.load_run(self.folder)
+            self.assertEqual([time for time, _ in grain_files.grain_series(run)], times)
+            self.assertEqual([time for time, _ in grain_files.grain_series(run)], times)
+            [remark] = run.remarks
+            self.assertIn(f'grains/grains.pvd is cut off or damaged after {len(times)} whole entries', remark)
+            self.assertIn(f'after {len(times)} whole entries', self.make())
+        self.write('grains/contacts.pvd', '<VTKFile><Collection>')
+        self.assertIn('grains/contacts.pvd is cut off or damaged after 0 whole entries', self.make())
+
     def test_failed_run_shows_its_error(self):
         self.write_all()
         self.write('run.json', json.dumps({'status': 'physics refused', 'exit_code': 6,
@@ -252,6 +291,11 @@ class Report(RunFolderTest):
         self.assertEqual((list(line.get_ydata()), line.get_linestyle()), ([0.03, 0.03], ':'))
         self.assertGreater(figure.axes[0].get_ylim()[1], 0.03)
         self.assertEqual([text.get_text() for text in figure.axes[0].get_legend().get_texts()], [curves.LARGEST])
+        self.assertIn('Largest overlap of any window: 0.03 D (dotted)', captions.motion(run))
+        run.record['windows_done'] = 5  # of an earlier part: the last row is that of window 10
+        (figure, _), = [shown for shown in curves.panels(run, curves.MOTION, 'motion') if 'penetration' in shown[1]]
+        self.assertEqual(len(figure.axes[0].lines), 1)
+        self.assertEqual(captions.motion(run), 'Largest overlap of the earlier parts and the rows: 0.03 D.')
         plt.close('all')
 
     def test_captions_of_a_collapse(self):
@@ -294,6 +338,17 @@ class Report(RunFolderTest):
         self.assertEqual(surface.top_of_polygon(grains.outlines[0], 2), 0.0)
         self.assertAlmostEqual(surface.top_of_polygon(grains.outlines[0] + [0.25, 0], 1), 3.5)
         self.assertAlmostEqual(surface.top_of_polygon(grains.outlines[0] + [0.25, 0], 0), 3.25)
+
+    def test_what_reaches_through_a_cyclic_side_is_part_of_the_surface(self):
+        """A square that stands on a corner at x = 0.2 D, and a disc at 3.9 D of 4 D."""
+        square = np.array([[0.2, 3.5], [-0.3, 3.0], [0.2, 2.5], [0.7, 3.0]])
+        grains = grain_files.Grains(0.0, np.array([[0.2, 3.0], [3.9, 1.0]]), np.array([0.5, 0.5]), outlines={0: square})
+        reaching = 1.0 + np.sqrt(0.25 - 0.01)
+        for side, first, last in (('wall', 3.5, 1.5), ('cyclic', 3.5, 3.3)):
+            data = run_data.RunData(self.folder, case={'domain.size': '[4, 6]', 'domain.left': side})
+            np.testing.assert_allclose(surface.surface(data, grains)[1], [first, 0.0, 0.0, last])
+        grains = grain_files.Grains(0.0, np.array([[3.9, 1.0]]), np.array([0.5]))
+        np.testing.assert_allclose(surface.surface(data, grains)[1], [reaching, 0.0, 0.0, 1.5])
 
     def test_parts_of_an_instant_are_one(self):
         self.write('grains/grains.pvd', '<VTKFile><Collection>'

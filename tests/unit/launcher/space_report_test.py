@@ -132,6 +132,11 @@ class Liquid(SpaceRun):
         data.record['fluid_program'] = 'box'
         [(time, path)] = fluid_fields.field_times(data)
         self.assertEqual(time, 0.5)
+        index = self.folder / 'fluid/fields/fields.pvd'
+        whole = index.read_text()
+        index.write_text(whole[:whole.index('</Coll')])
+        self.assertEqual(fluid_fields.field_times(data), [(time, path)])
+        self.assertIn('fluid/fields/fields.pvd is cut off or damaged after 1 whole entries', data.remarks[-1])
         rows = (velocity**2).sum(axis=-1).mean(axis=(0, 2))
         self.assertAlmostEqual(fluid_fields.mean_square_velocity(data, time, path), (rows[0] + 2 * rows[1]) / 3)
 
@@ -355,6 +360,47 @@ class FreeSurface(SpaceRun):
         beyond = self.grains()
         beyond.radii = np.array([0.4, 0.4, 0.4])
         self.assertEqual(free_surface.over_length(self.run_data, beyond)[1][2], 0.0)  # mean 0.45
+
+    def spheres(self, *places):
+        places = np.array(places, dtype=float)
+        return grain_files.Grains(0.0, places[:, :2], np.full(len(places), 0.5), z=places[:, 2])
+
+    def test_a_flat_layer_is_flat_whatever_the_depth_and_the_shift(self):
+        """5.5 D high, of 3 spheres over a depth of 3.5 D, of 6 over 6.5 D: columns between them have 5.4 D."""
+        for depth in (3.5, 6.5):
+            self.run_data.case['domain.size'] = f'[6, 8, {depth}]'
+            for shift in np.arange(0.0, depth, 0.05):
+                layer = self.spheres(*((x + 0.5, 5.0, (z + shift) % depth) for x in range(6)
+                                       for z in np.arange(int(depth)) * depth / int(depth)))
+                np.testing.assert_allclose(free_surface.over_length(self.run_data, layer)[1], 5.5, atol=0.03)
+
+    def test_the_last_column_counts_as_wide_as_it_is(self):
+        """Spheres that fill all of 3.5 D but the last half."""
+        self.run_data.case['domain.size'] = '[6, 8, 3.5]'
+        self.run_data.case['domain.front'] = 'wall'
+        rows = self.spheres(*((1.5, 5.0, z) for z in (0.5, 1.5, 2.5)))
+        self.assertAlmostEqual(free_surface.over_length(self.run_data, rows)[1][1], 5.5 * 3.0 / 3.5)
+
+    def test_what_reaches_through_a_cyclic_side_is_there(self):
+        self.run_data.case['domain.size'] = '[6, 8, 3.5]'
+        beyond = 2.0 + np.sqrt(0.25 - 0.01)  # 0.1 D from the side
+        for case, cells in (({'domain.front': 'cyclic', 'domain.left': 'wall'}, [(0, 0), (0, 3)]),
+                            ({'domain.front': 'wall', 'domain.left': 'cyclic'}, [(0, 0), (5, 0)]),
+                            ({'domain.front': 'wall', 'domain.left': 'wall'}, [(0, 0)])):
+            self.run_data.case.update(case)
+            found = free_surface.heights(self.run_data, self.spheres((0.1, 2.0, 0.1)))
+            self.assertEqual(sorted(zip(*(place.tolist() for place in np.nonzero(found)))), cells)
+            np.testing.assert_allclose(found[found > 0.0], [2.5, beyond][:len(cells)])
+        self.run_data.case.update({'domain.front': 'cyclic', 'domain.left': 'cyclic'})
+        corner = free_surface.heights(self.run_data, self.spheres((0.1, 2.0, 0.1)))
+        np.testing.assert_allclose(corner[[0, 5, 0, 5], [0, 0, 3, 3]], [2.5, beyond, beyond, 2.0 + np.sqrt(0.25 - 0.02)])
+        far = free_surface.heights(self.run_data, self.spheres((5.9, 2.0, 3.4)))
+        np.testing.assert_allclose(far[[5, 5, 0, 0], [3, 0, 3, 0]], [2.5, beyond, beyond, 2.0 + np.sqrt(0.25 - 0.02)])
+
+    def test_a_shift_by_a_column_changes_no_mean(self):
+        for k in range(4):
+            one = self.spheres((1.5, 2.0, 0.1 + k))
+            np.testing.assert_allclose(free_surface.over_length(self.run_data, one)[1][1], (2.5 + 2.0 + np.sqrt(0.24)) / 4.0)
 
 
 class Projection(unittest.TestCase):

@@ -69,6 +69,62 @@ class Verdict(unittest.TestCase):
         run = run_with(record={'status': 'interrupted', 'exit_code': 130, 'windows_done': 4})
         self.assertIn('Status: interrupted, exit code 130. 4 of 10 windows, t = 2 t_c.', verdict.outcome(run, []))
 
+    def test_a_run_that_was_resumed_and_killed_is_judged_by_its_rows_too(self):
+        """run.json has the maxima of the earlier part alone."""
+        run = run_with(history={'time': [0, 1, 2], 'max_penetration': [0, 0.05, np.nan], 'grain_balance': [np.nan, 1e-15, 1e-3],
+                                'unconverged': [np.nan, 3, 4]})
+        self.assertEqual(said(run)['overlaps'][0], verdict.DOUBT)
+        self.assertIn('up to 0.05 D', said(run)['overlaps'][1])
+        self.assertIn('grains 0.001, fluid 3e-13', said(run)['momentum'][1])
+        self.assertIn('in 7 of them the contact solver missed', said(run)['solvers'][1])
+
+    def test_a_run_that_was_killed_is_judged_by_its_rows(self):
+        """run.json has no maxima: those are written at the end."""
+        rows = {'step': [0, 6], 'time': [0, 3], 'max_penetration': [0, 1e-5], 'grain_balance': [np.nan, 1e-15],
+                'unconverged': [np.nan, 7]}
+        run = run_with(record={'status': 'interrupted', 'maxima': None, 'windows_done': None}, history=rows)
+        self.assertEqual(said(run)['solvers'], (verdict.DOUBT, 'Not every window is solved to its tolerance (6 windows by the '
+                                                'rows): in 7 of them the contact solver missed its tolerance.'))
+        self.assertIn('6 of 10 windows, t = 3 t_c. Look at: solvers.', verdict.outcome(run, verdict.checks(run)))
+        self.assertEqual(said(run)['momentum'][1], 'Momentum is balanced: largest relative defect of the rows grains 1e-15.')
+        self.assertEqual(said(run)['overlaps'][1], 'Overlaps are small: at most 1e-05 D in the rows; beyond 0.2 D a run ends.')
+        run.history['unconverged'][1] = 0
+        self.assertEqual(said(run)['solvers'], (verdict.HOLDS, 'The contacts of every window up to the last row are solved to '
+                                                'their tolerance (6 windows by the rows).'))
+
+    def test_maxima_of_an_earlier_part_are_said_to_be_of_it(self):
+        rows = {'step': [0, 5, 8], 'time': [0, 2, 4], 'max_penetration': [0, 1e-5, 1e-3]}
+        run = run_with(record={'windows_done': 5}, history=rows)
+        self.assertIn('of the earlier parts and the rows grains', said(run)['momentum'][1])
+        self.assertIn('at most 0.001 D in the earlier parts and the rows', said(run)['overlaps'][1])
+        self.assertIn('at most 0.4 in the earlier parts of the run.', said(run)['Courant number'][1])
+        run.record['windows_done'] = 9  # one window more than the last row has
+        self.assertIn('of any window grains', said(run)['momentum'][1])
+        self.assertIn('Every window is', said(run)['solvers'][1])
+
+    def test_only_what_no_fault_has_ended_is_praised(self):
+        for status, words in (('done', ' Every check holds.'), ('interrupted', ' Every check holds.'),
+                              ('prepared', ' Every check holds so far.'), ('failed', ''), ('handshake refused', ''),
+                              ('stalled', ''), ('physics refused', '')):
+            run = run_with(record={'status': status, 'exit_code': None})
+            self.assertEqual(verdict.outcome(run, verdict.checks(run)), f'Status: {status}. All 10 windows, t = 5 t_c.{words}')
+        refused = run_with({'penetration': 0.3}, {'status': 'physics refused'})
+        self.assertIn('Look at: overlaps.', verdict.outcome(refused, verdict.checks(refused)))
+
+    def test_praise_by_rows_alone_says_so(self):
+        for status in ('interrupted', 'prepared'):
+            run = run_with(record={'status': status, 'maxima': None, 'windows_done': None},
+                           history={'step': [0, 6], 'time': [0, 3], 'max_penetration': [0, 1e-5]})
+            self.assertTrue(verdict.outcome(run, verdict.checks(run)).endswith('Every check holds as far as the rows tell.'))
+
+    def test_the_rows_do_not_hide_what_lies_between_them(self):
+        run = run_with({'penetration': 0.04, 'unconverged_windows': 9, 'grain_balance': None, 'fluid_balance': np.nan},
+                       history={'time': [0, 1], 'max_penetration': [0, 1e-5], 'grain_balance': [np.nan, 1e-15],
+                                'unconverged': [np.nan, 2]})
+        self.assertIn('up to 0.04 D', said(run)['overlaps'][1])
+        self.assertIn('in 9 of them', said(run)['solvers'][1])
+        self.assertIn('grains 1e-15.', said(run)['momentum'][1])
+
     def test_grains_that_rest_and_grains_that_left(self):
         run = run_with(history={'time': [0, 1, 2], 'mean_speed': [0, 1, 0.001], 'grains': [9, 9, 7]})
         self.assertTrue(said(run)['rest'][1].startswith('At rest from t = 2 t_c on'))
