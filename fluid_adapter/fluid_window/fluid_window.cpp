@@ -211,8 +211,9 @@ void FluidWindow::forget_jump() {
 void FluidWindow::correct_fluid(CoupledLimits limits) {
     CoupledStep* coupled = step_.coupled();
     if (!coupled) return;
-    // Without a pressure to begin with, one iteration would leave a tenth of it.
-    if (so_far_.jumped && !limits.iterated) limits.pressure = {limits.viscosity.most, 0.0, 1e-3};
+    // Without a pressure to begin with, one iteration would leave too much of it.
+    if (ledger_.began_at_rest() && !limits.iterated)
+        limits.pressure = {limits.viscosity.most, 0.0, 1e-3};
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
         // Pressure and viscosity change an imposed velocity by rigid changes, and the multipliers
         // go on from what has been imposed.

@@ -68,9 +68,9 @@ void set_fluid_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("fluid.viscous_tolerance", setup.viscous_tolerance);
 }
 
-void set_contact_values(Settings& settings) {
+void set_contact_values(Settings& settings, const CoupledSetup& setup) {
     settings.set("contact.friction", 0.3);
-    settings.set("contact.tolerance", 1e-3);
+    settings.set("contact.tolerance", setup.contact_tolerance);
     settings.set("contact.iterations", std::int64_t{2000});
     settings.set("contact.recovery_fraction", 0.2);
     settings.set("contact.recovery_speed", 0.5);
@@ -99,7 +99,7 @@ Settings settings_of(const CoupledSetup& setup) {
     Settings settings;
     set_run_values(settings, setup);
     set_fluid_values(settings, setup);
-    set_contact_values(settings);
+    set_contact_values(settings, setup);
     return settings;
 }
 

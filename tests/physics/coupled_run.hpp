@@ -36,6 +36,7 @@ struct CoupledSetup {
     double tolerance = 1e-4;
     double splitting_tolerance = 1e-4;
     double joint_tolerance = 1e-4;  ///< as coupling.tolerance
+    double contact_tolerance = 1e-3;
     std::int64_t multiplier_iterations = 200;
     double hydrodynamic_radius = 1.0;
     std::string transport_scheme = "Gauss limitedLinearV 1";

@@ -21,6 +21,7 @@ CoupledSetup heap(const std::string& splitting) {
     setup.tolerance = 1e-7;
     setup.splitting = splitting;
     setup.hydrodynamic_radius = 0.85;
+    setup.contact_tolerance = 1e-7;
     return setup;
 }
 

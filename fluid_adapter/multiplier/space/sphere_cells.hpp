@@ -2,10 +2,10 @@
 //
 // Which cells move with which sphere, or wall inside the box. A cell belongs to the sphere of R_h
 // that its centre lies in; of several, to that with the smallest power |r|^2 - R_h^2, so that a
-// plane divides two spheres that overlap (the smaller id where it is equal). Cells of walls
-// (wall_cells.hpp) are no sphere's. A cell of none whose six neighbours are covered, or beyond a
-// side, joins the sphere of the smallest power or the wall beside it along x: its pressure would be
-// tied to no other. Valid C++17.
+// plane divides two spheres that overlap (the smaller id where it is equal, to rounding either).
+// Cells of walls (wall_cells.hpp) are no sphere's. A cell of none whose six neighbours are covered,
+// or beyond a side, joins the sphere of the smallest power or the wall beside it along x: its
+// pressure would be tied to no other. Valid C++17.
 #pragma once
 
 #include <utility>

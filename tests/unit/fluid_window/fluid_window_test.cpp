@@ -94,9 +94,7 @@ TEST_P(EverySplitting, TheDiscSetsTheFluidAroundItInMotion) {
     scene.disc.angular_velocity[2] = 0.3;
     const Kick kick = scene.play(0).kicks.at(0);
     const double added = 1.5 * scene.disc.velocity[1] / kick.velocity[1] - 1.5;
-    // One correction of the pressure, from none, finds nine tenths of it.
-    const bool once = GetParam() == "explicit-multiplier";
-    EXPECT_GT(added, corrects(GetParam()) ? (once ? 0.9 : 1.0) : -0.01);
+    EXPECT_GT(added, corrects(GetParam()) ? 1.0 : -0.01);
     EXPECT_LT(added, corrects(GetParam()) ? 1.6 : 0.01);
     // No pressure turns a disc; viscosity takes some of the spin.
     EXPECT_NEAR(kick.angular_velocity[2], 0.3, 0.2 * 0.3);
