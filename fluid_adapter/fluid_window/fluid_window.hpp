@@ -59,7 +59,8 @@ class FluidWindow {
     /// Of the present window.
     struct SoFar {
         bool grains_taken = false;
-        bool jumped = false;  ///< bodies have set a fluid at rest in motion
+        bool sides_move = false;  ///< an inflow, too
+        bool jumped = false;      ///< bodies or sides have set a fluid at rest in motion
     };
 
     void begin(const Window& window);
