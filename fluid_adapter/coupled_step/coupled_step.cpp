@@ -87,6 +87,8 @@ CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& giv
     }
     // What a direction leaves of its slip adds to the flow's own, which later solves reduce.
     limits.viscosity.slip_reduction = limits.pressure.slip_reduction = slip_reduction();
+    // Where a run begins that is a part of the whole velocity, and depends on the number of ranks.
+    if (!limits.iterated && limits.pressure.most > 1) limits.pressure.slip_reduction = 1e-6;
     CoupledReport report;
     // Each disturbs the other: solved is what needs no iteration any more.
     // A round ends with pressure, so that u leaves a single one nearly solenoidal.

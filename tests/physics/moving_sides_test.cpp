@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "tests/physics/coupled_run.hpp"
 
@@ -201,6 +203,31 @@ TEST(PlugFlow, FillsTheBox) {
                 ASSERT_NEAR(run.fluid().velocity(i, j)[1], 0.7, 1e-6);
             }
     }
+}
+
+/// Velocities of a free disc in a stream that is switched on at once, window by window.
+std::vector<double> in_a_new_stream(const std::string& splitting) {
+    CoupledSetup setup = with_sides({"", "inflow", "free", "cyclic", "cyclic"});
+    setup.inflow_motions = "0 constant 1 0 0";
+    setup.cells_per_diameter = 8;
+    setup.width = 6.0;
+    setup.splitting = splitting;
+    setup.splitting_tolerance = 1e-6;
+    CoupledRun run(setup, {disc_at(setup, 2.03, 2.02)});
+    std::vector<double> velocities;
+    for (int n = 0; n < 10; ++n) {
+        run.advance();
+        velocities.push_back(run.grains()[0].velocity[0]);
+    }
+    return velocities;
+}
+
+/// The impulse of the first window is none of the second.
+TEST(SwitchedOnStream, TakesADiscAlongAtOnce) {
+    const std::vector<double> once = in_a_new_stream("explicit-multiplier");
+    const std::vector<double> all = in_a_new_stream("implicit-multiplier");
+    EXPECT_GT(all.front(), 0.5);
+    for (std::size_t n = 0; n < once.size(); ++n) EXPECT_NEAR(once[n], all[n], 0.01 * all[n]) << n;
 }
 
 /// Contacts see the wall's velocity: a disc that lies on a sliding floor goes with it.
