@@ -213,9 +213,10 @@ void FluidWindow::forget_jump() {
 void FluidWindow::correct_fluid(CoupledLimits limits) {
     CoupledStep* coupled = step_.coupled();
     if (!coupled) return;
-    // Without a pressure to begin with, one iteration would leave too much of it.
+    // Without a pressure to begin with, one iteration would leave too much of it. What is below the
+    // tolerance is rounding.
     if (ledger_.began_at_rest() && !limits.iterated)
-        limits.pressure = {limits.viscosity.most, 0.0, 1e-3};
+        limits.pressure = {limits.viscosity.most, 1e-9 * run_.velocity / run_.diameter, 1e-3};
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
         // Pressure and viscosity change an imposed velocity by rigid changes, and the multipliers
         // go on from what has been imposed.
