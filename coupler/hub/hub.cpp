@@ -104,23 +104,28 @@ void Hub::warn_of_courant(double before) {
     if (!sentence.empty()) progress_.say("turbidite: warning: " + sentence);
 }
 
-/// Output and checkpoint of a window. A row out of turn, at the end of this part of the run, is no
-/// longer there once a next part plays windows, whose history is to be that of a run in one part:
-/// the checkpoint has the lengths without it, and those with it for the case that none is left.
+/// Output and checkpoint of a window.
 void Hub::finish(const Window& window, bool out_of_turn, bool save_it) {
-    if (window.write_output && !out_of_turn) write_output(window);
-    std::optional<CouplerState> without_row;
-    if (save_it) without_row = state();
+    if (window.write_output && out_of_turn) return finish_out_of_turn(window, save_it);
+    if (window.write_output) write_output(window);
+    if (save_it) checkpoints_.write(state());
+}
+
+/// A row out of turn, at the end of this part of the run, is no longer there once a next part plays
+/// windows, whose history is to be that of a run in one part: the checkpoint has the lengths
+/// without it, and those with it for the case that none is left.
+void Hub::finish_out_of_turn(const Window& window, bool save_it) {
+    if (!save_it) return write_output(window);
+    CouplerState without_row = state();
     try {
-        if (window.write_output && out_of_turn) write_output(window);
+        write_output(window);
     } catch (...) {
         // A row that cannot be written ends the run, but loses no checkpoint.
-        if (without_row) checkpoints_.write(*without_row);
+        checkpoints_.write(without_row);
         throw;
     }
-    if (!without_row) return;
-    without_row->output.lengths_at_end = output_.lengths();
-    checkpoints_.write(*without_row);
+    without_row.output.lengths_at_end = output_.lengths();
+    checkpoints_.write(without_row);
 }
 
 void Hub::write_output(const Window& window) {

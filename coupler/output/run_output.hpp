@@ -42,7 +42,7 @@ class RunOutput {
     void record(const Window& window, WindowResult result, double waited);
 
     /// Of a window that did not pass them.
-    void record_refused(const WindowResult& result) { statistics_.take_in_refused(result); }
+    void record_refused(const WindowResult& result) { statistics_.raise_maxima(result); }
 
     /// Writes the last window: its row, grains and contacts.
     void write();

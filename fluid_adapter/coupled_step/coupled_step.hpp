@@ -22,9 +22,9 @@
 namespace turbidite {
 
 struct CoupledLimits {
-    /// To the tolerances. Otherwise one iteration of pressure, and viscosity, within its limit of
-    /// iterations, to a tenth of what was missing, or less where that of the shortest waves would
-    /// stay too strong.
+    /// To the tolerances. Otherwise pressure within its limit, a single iteration but where a fluid
+    /// at rest begins to move, and viscosity, within its limit of iterations, to a tenth of what
+    /// was missing, or less where that of the shortest waves would stay too strong.
     bool iterated = false;
     IterationLimit viscosity;  ///< tolerance: rms of the missing viscous acceleration [m/s2]
     IterationLimit pressure;   ///< tolerance: rms of div [1/s]

@@ -55,10 +55,6 @@ void RunStatistics::take_in(const WindowResult& result) {
     contact_residuals.take_in(result.motion.report);
 }
 
-void RunStatistics::take_in_refused(const WindowResult& result) {
-    raise_maxima(result);
-}
-
 void RunStatistics::raise_maxima(const WindowResult& result) {
     maxima.penetration =
         std::max(maxima.penetration, result.state.report.max_penetration / diameter_);

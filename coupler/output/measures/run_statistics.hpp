@@ -88,8 +88,8 @@ class RunStatistics {
 
     void take_in(const WindowResult& result);
 
-    /// Of a window that a check refused: its values are among the largest, though it is not done.
-    void take_in_refused(const WindowResult& result);
+    /// The maxima alone: also of a window that a check refused, which is not done.
+    void raise_maxima(const WindowResult& result);
 
     /// Goes on from those of an earlier part of the run.
     void resume(const RunStatistics& earlier);
@@ -99,7 +99,6 @@ class RunStatistics {
     ContactResiduals contact_residuals;
 
  private:
-    void raise_maxima(const WindowResult& result);
     void take_in(const FluidReport& report);
     void take_in(const JointReport& report);
 
