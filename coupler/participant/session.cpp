@@ -122,8 +122,10 @@ Hello complete(Hello hello, Role role, const Identity& identity) {
 }
 
 // The coupler notices a stall first and reports who is silent; a participant gives up only if the
-// coupler itself is gone.
-constexpr double margin_over_coupler = 1.5;
+// coupler itself is gone. Between two messages to it the coupler may wait for the other side twice
+// (`joint`: grains hear nothing while the fluid answers with its responses and then with its
+// kicks), for up to limits.stall_hard each time.
+constexpr double margin_over_coupler = 2.5;
 
 template <class Adapter>
 class RoleSession : public Session {

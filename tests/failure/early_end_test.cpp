@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Ends, EndBeforeMpi,
 TEST_P(EarlyEnd, IsToldWithPhaseAndWindow) {
     const Stopwatch watch;
     const Answer answer = run_with(GetParam().fault);
-    EXPECT_LT(watch.seconds(), longest_with_report);
+    EXPECT_LT(watch.seconds(), longest);
     expect_one_message(answer);
     const auto start = answer.err.find("The run failed: ");
     const std::string message = answer.err.substr(start, answer.err.find('\n', start) - start);

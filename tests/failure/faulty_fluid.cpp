@@ -3,10 +3,12 @@
 // faulty_fluid -case RUN/fluid, in place of turbidite-fluid: a scripted fluid with the fault named
 // by TURBIDITE_FAULT in window 5: nan, divergence, unsolved, throw, or an end: _exit-0, _exit-3,
 // exit-0, segfault, mpi-abort, terminate, finalize, loop; what it has to say before such an
-// end goes to its log. Before MPI_Init: early-0, early-3, early-hang.
+// end goes to its log. late-twice answers the contact impulses of that window late, and sends its
+// kicks late. Before MPI_Init: early-0, early-3, early-hang.
 #include <mpi.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +17,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "coupler/participant/participant.hpp"
 #include "coupler/participant/scripted.hpp"
@@ -30,7 +33,13 @@ class FaultyFluid final : public ScriptedFluid {
  public:
     explicit FaultyFluid(std::string fault) : ScriptedFluid(drag), fault_(std::move(fault)) {}
 
+    void correct(const Window& window, const std::vector<GrainState>& solved) override {
+        be_late(window);
+        ScriptedFluid::correct(window, solved);
+    }
+
     Kicks impose(const Window& window) override {
+        be_late(window);
         Kicks kicks = ScriptedFluid::impose(window);
         if (window.index < faulty_window) return kicks;
         if (fault_ == "nan") kicks.kicks.at(0).velocity[0] = not_a_number;
@@ -50,6 +59,12 @@ class FaultyFluid final : public ScriptedFluid {
     }
 
  private:
+    /// Within limits.stall_hard = 3 s, and two times not within one and a half of it.
+    void be_late(const Window& window) const {
+        if (fault_ == "late-twice" && window.index == faulty_window)
+            std::this_thread::sleep_for(std::chrono::milliseconds(2400));
+    }
+
     [[noreturn]] static void spin() {
         for (volatile bool more = true; more;) {
         }

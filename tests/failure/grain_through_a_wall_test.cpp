@@ -20,11 +20,13 @@ TEST_F(FailingRun, OverlapEndsTheRun) {
 }
 
 TEST_F(FailingRun, GrainThroughAWallEndsTheRun) {
+    with_reports();
     const Answer answer = shell(run_line(careless + "--set limits.penetration=100"));
     EXPECT_EQ(answer.code, 6);
     EXPECT_SAYS(answer.err, "has its centre beyond the ");
     EXPECT_SAYS(answer.err, "use a smaller time.step");
     expect_good_output_is_kept(ExitCode::physics_refused);
+    expect_report();
     expect_nothing_left();
 }
 

@@ -16,6 +16,7 @@ struct Victim {
 class KilledParticipant : public FailingRun, public ::testing::WithParamInterface<Victim> {};
 
 TEST_P(KilledParticipant, IsNamedAndNothingIsLeft) {
+    with_reports();
     const pid_t run = start(4);
     const auto victim = processes(GetParam().program);
     ASSERT_EQ(victim.size(), 1u);
@@ -27,6 +28,7 @@ TEST_P(KilledParticipant, IsNamedAndNothingIsLeft) {
     EXPECT_SAYS(answer.err, std::string("The run failed: ") + GetParam().name);
     expect_nothing_left();
     expect_good_output_is_kept(ExitCode::participant_failed);
+    expect_report();
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -51,7 +53,7 @@ TEST_F(FailingRun, AnMpirunThatStaysAfterACrashIsKilled) {
     for (const pid_t process : processes("turbidite-grains")) kill(process, SIGKILL);
     const Stopwatch watch;
     const Answer answer = end_of(run);
-    EXPECT_LT(watch.seconds(), 3.0 + longest_with_report);  // limits.stall_hard
+    EXPECT_LT(watch.seconds(), 3.0 + longest);  // limits.stall_hard
     EXPECT_EQ(answer.code, 4);
     EXPECT_SAYS(answer.err, "mpirun has not ended within limits.stall_hard = 3 s and is killed");
     EXPECT_SAYS(answer.err, "The run failed: grains rank 0 was ended by signal 9");
@@ -68,7 +70,7 @@ TEST_F(FailingRun, SigTermToMpirunIsTold) {
     kill(mpirun[0], SIGTERM);
     const Stopwatch watch;
     const Answer answer = end_of(run);
-    EXPECT_LT(watch.seconds(), longest_with_report);
+    EXPECT_LT(watch.seconds(), longest);
     EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
     EXPECT_SAYS(answer.err, "The run failed: mpirun ended with status 1 and named no program");
     EXPECT_SAYS(answer.err, "Last lines of logs/coupler.log:");
