@@ -128,8 +128,10 @@ Finding same_on_two_ranks(const Candidate& candidate, const std::filesystem::pat
         .finding;
 }
 
+const TrialCase at_a_distance{"distance", two_apart, {}};
+
 Finding keeps_order(const Candidate& candidate, const std::filesystem::path& folder) {
-    return refuses_disorder(candidate, {"", two_apart, {}}, Kind::constraint, folder);
+    return refuses_disorder(candidate, at_a_distance, Kind::constraint, folder);
 }
 
 Finding stops_on_request(const Candidate& candidate, const std::filesystem::path& folder) {
@@ -137,11 +139,11 @@ Finding stops_on_request(const Candidate& candidate, const std::filesystem::path
 }
 
 Finding repeats_itself(const Candidate& candidate, const std::filesystem::path& folder) {
-    return runs_alike(candidate, {"", two_apart, {}}, folder);
+    return runs_alike(candidate, at_a_distance, folder);
 }
 
 Finding goes_on(const Candidate& candidate, const std::filesystem::path& folder) {
-    return goes_on_alike(candidate, {"", two_apart, {"output.interval=0.05"}}, folder);
+    return goes_on_alike(candidate, {"whole", two_apart, {"output.interval=0.05"}}, folder);
 }
 
 }  // namespace

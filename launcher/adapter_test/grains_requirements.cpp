@@ -83,8 +83,12 @@ Finding falls_without_a_fluid(const Candidate& candidate, const std::filesystem:
         play_trial(candidate, {"dry", falling(candidate), {"fluid.enabled=false"}}, folder));
 }
 
+TrialCase in_a_drag(const Candidate& candidate) {
+    return {"drag", falling(candidate), {}};
+}
+
 Finding settles_in_a_drag(const Candidate& candidate, const std::filesystem::path& folder) {
-    return judge_fall(play_trial(candidate, {"drag", falling(candidate), {}}, folder));
+    return judge_fall(play_trial(candidate, in_a_drag(candidate), folder));
 }
 
 /// The fall, and that contacts and fluid came to the same velocities in every window.
@@ -161,18 +165,19 @@ Finding stops_on_request(const Candidate& candidate, const std::filesystem::path
     return ends_on_request(candidate, {"", apart, {}}, folder);
 }
 
-const TrialCase landing{"", above_the_floor, {"time.end=1", "output.interval=0.1"}};
+const TrialCase short_landing{
+    "short-landing", above_the_floor, {"output.interval=0.1", "time.end=1"}};
 
 Finding repeats_itself(const Candidate& candidate, const std::filesystem::path& folder) {
-    return runs_alike(candidate, landing, folder);
+    return runs_alike(candidate, short_landing, folder);
 }
 
 Finding goes_on(const Candidate& candidate, const std::filesystem::path& folder) {
-    return goes_on_alike(candidate, {"", above_the_floor, {"output.interval=0.1"}}, folder);
+    return goes_on_alike(candidate, short_landing, folder);
 }
 
 Finding keeps_order(const Candidate& candidate, const std::filesystem::path& folder) {
-    return refuses_disorder(candidate, {"", apart, {}}, Kind::kick, folder);
+    return refuses_disorder(candidate, in_a_drag(candidate), Kind::kick, folder);
 }
 
 /// Repeats every window until grains and fluid agree: what the drag does, to coupling.tolerance.

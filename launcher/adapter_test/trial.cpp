@@ -146,17 +146,39 @@ JobEnd start(const std::vector<std::string>& line, const RunFolder& folder,
     return end;
 }
 
+Trial read_trial(const RunFolder& folder, const Candidate& candidate, const Settings& settings,
+                 JobOutcome outcome) {
+    return {std::move(outcome), read_history(folder.history()),
+            maxima_of(folder),  settings,
+            folder.root,        folder.recording(role_name(candidate.side))};
+}
+
 Trial played(const PreparedRun& prepared, const Candidate& candidate, const Settings& settings,
              const std::string& name) {
     const JobEnd end = start(prepared.line, prepared.folder, prepared.settings, name);
     JobOutcome outcome = settle_outcome(prepared.folder, end, prepared.ranks);
     if (outcome.code != ExitCode::done) outcome.log_tail = last_words(prepared.folder, outcome);
-    return {outcome,
-            read_history(prepared.folder.history()),
-            maxima_of(prepared.folder),
-            settings,
-            prepared.folder.root,
-            prepared.folder.recording(role_name(candidate.side))};
+    return read_trial(prepared.folder, candidate, settings, std::move(outcome));
+}
+
+/// Whether this process has played the whole case there: a folder of --keep may hold runs of
+/// another version of the program under test.
+class Played {
+ public:
+    bool has(const RunFolder& folder, const Settings& settings) const {
+        const auto at = cases_.find(folder.root);
+        return at != cases_.end() && at->second == settings.text("run.hash");
+    }
+    void note(const RunFolder& folder, const Trial& trial) {
+        if (trial.done()) cases_[folder.root] = trial.settings.text("run.hash");
+    }
+
+ private:
+    std::map<std::filesystem::path, std::string> cases_;
+};
+Played& trials_so_far() {
+    static Played trials;
+    return trials;
 }
 
 }  // namespace
@@ -179,9 +201,14 @@ Trial play_trial(const Candidate& candidate, const TrialCase& trial,
           candidate.dimension == 3 ? in_middle_depth(trial.grains) : trial.grains);
     write(root / "trial.yaml", case_of(candidate));
     const ResolvedCase resolved = load_case(root / "trial.yaml", overrides_of(candidate, trial));
-    const PreparedRun prepared = prepare(resolved, {root / "run", true}, site_for(candidate));
+    const RunFolder run{root / "run"};
+    if (trials_so_far().has(run, resolved.settings))
+        return read_trial(run, candidate, resolved.settings, {});
+    const PreparedRun prepared = prepare(resolved, {run.root, true}, site_for(candidate));
     if (trial.stop_at_once) write(prepared.folder.stop(), "143\n");
-    return played(prepared, candidate, resolved.settings, trial.name);
+    Trial done = played(prepared, candidate, resolved.settings, trial.name);
+    trials_so_far().note(run, done);
+    return done;
 }
 
 std::optional<Trial> resume_trial(const Candidate& candidate, const TrialCase& trial,

@@ -45,8 +45,9 @@ struct Trial {
     double maximum(const std::string& of) const;
 };
 
-/// Plays it in `folder`/NAME; all output goes to files there. Throws Failure (bad input) when the
-/// case does not suit the adapter, before anything starts.
+/// Plays it in `folder`/NAME; all output goes to files there. Where another requirement has played
+/// the same case under this name, that run is the trial. Throws Failure (bad input) when the case
+/// does not suit the adapter, before anything starts.
 Trial play_trial(const Candidate& candidate, const TrialCase& trial,
                  const std::filesystem::path& folder);
 

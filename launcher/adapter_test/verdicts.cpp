@@ -86,11 +86,12 @@ OnTwoRanks moves_alike(const Candidate& candidate, TrialCase trial,
     TrialCase two = trial;
     trial.name += "1-rank", two.name += "2-ranks";
     two.overrides.insert(two.overrides.end(), keys_of_two.begin(), keys_of_two.end());
-    const Trial alone = play_trial(candidate, trial, folder);
-    if (!alone.done()) return {failure_of(alone.outcome), alone};
+    // First, since most programs refuse it.
     const Trial shared = play_trial(candidate, two, folder);
     if (const auto words = refusal_of(shared))
         return {{Grade::not_supported, "refuses two ranks: " + *words}, shared};
+    const Trial alone = play_trial(candidate, trial, folder);
+    if (!alone.done()) return {failure_of(alone.outcome), alone};
     if (!shared.done()) return {failure_of(shared.outcome), shared};
     const double error = worst(
         alone, shared,
@@ -101,8 +102,8 @@ OnTwoRanks moves_alike(const Candidate& candidate, TrialCase trial,
 Finding runs_alike(const Candidate& candidate, TrialCase trial,
                    const std::filesystem::path& folder) {
     std::vector<Trial> trials;
-    for (const char* name : {"first", "second"}) {
-        trial.name = name;
+    for (const char* turn : {"", "-again"}) {
+        trial.name += turn;
         trials.push_back(play_trial(candidate, trial, folder));
         if (!trials.back().done()) return failure_of(trials.back().outcome);
     }
@@ -115,7 +116,7 @@ Finding runs_alike(const Candidate& candidate, TrialCase trial,
 Finding goes_on_alike(const Candidate& candidate, TrialCase trial,
                       const std::filesystem::path& folder) {
     TrialCase parts = trial;
-    trial.name = "whole", parts.name = "parts";
+    parts.name += "-parts";
     trial.overrides.push_back("time.end=1"), parts.overrides.push_back("time.end=0.45");
     const Trial whole = play_trial(candidate, trial, folder);
     if (!whole.done()) return failure_of(whole.outcome);
@@ -134,9 +135,8 @@ Finding goes_on_alike(const Candidate& candidate, TrialCase trial,
     return {Grade::met, "a run in two parts is equal to one in one part, to the last digit"};
 }
 
-Finding refuses_disorder(const Candidate& candidate, TrialCase trial, Kind kind,
+Finding refuses_disorder(const Candidate& candidate, const TrialCase& trial, Kind kind,
                          const std::filesystem::path& folder) {
-    trial.name = "disorder";
     const Trial recorded = play_trial(candidate, trial, folder);
     if (!recorded.done()) return failure_of(recorded.outcome);
     std::string said;

@@ -52,18 +52,18 @@ OnTwoRanks moves_alike(const Candidate& candidate, TrialCase trial,
                        const std::vector<std::string>& keys_of_two, double tolerance,
                        const std::filesystem::path& folder);
 
-/// Two equal runs have the same history, to the last digit.
+/// Two equal runs, NAME and NAME-again, have the same history, to the last digit.
 Finding runs_alike(const Candidate& candidate, TrialCase trial,
                    const std::filesystem::path& folder);
 
-/// A run until 0.45 t_c that goes on until 1 t_c has the history of a run in one part, to the last
-/// digit.
+/// A run until 0.45 t_c that goes on until 1 t_c, NAME-parts, has the history of NAME in one part,
+/// to the last digit.
 Finding goes_on_alike(const Candidate& candidate, TrialCase trial,
                       const std::filesystem::path& folder);
 
-/// The program refuses a window in which the coupler's message of this kind is left out, and one in
-/// which it comes twice.
-Finding refuses_disorder(const Candidate& candidate, TrialCase trial, Kind kind,
+/// The program refuses a window of the trial in which the coupler's message of this kind is left
+/// out, and one in which it comes twice.
+Finding refuses_disorder(const Candidate& candidate, const TrialCase& trial, Kind kind,
                          const std::filesystem::path& folder);
 
 }  // namespace turbidite
