@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace turbidite {
@@ -82,13 +83,27 @@ std::string log_line(const Row& row, const RunValues& run, double per_window) {
         solves(row, run), per_window);
 }
 
+/// So many decimals that times of rows differ, and the end is not passed: at least one, at most
+/// four.
+int decimals(const RunValues& run) {
+    const double interval = static_cast<double>(run.output_every) * run.step / run.time;
+    const double end = static_cast<double>(run.windows) * run.step / run.time;
+    const auto whole = [](double value) { return std::abs(value - std::round(value)) < 1e-6; };
+    int digits = 1;
+    for (double unit = 10.0; digits < 4 && !(whole(interval * unit) && whole(end * unit));
+         unit *= 10.0)
+        ++digits;
+    return digits;
+}
+
 }  // namespace
 
 std::string progress_line(const Row& row, const RunValues& run, double per_window) {
     const double end = static_cast<double>(run.windows) * run.step;
     const double left = per_window * static_cast<double>(run.windows - row.step);
     return fmt::format(
-        "{:.1f}/{:.4g} t_c  {}  overlap {:.0e} D  {} left", row.time / run.time, end / run.time,
+        "{:.{}f}/{:.4g} t_c  {}  overlap {:.0e} D  {} left", row.time / run.time, decimals(run),
+        end / run.time,
         all_converged(row) ? fmt::format("fall {:.3f} u_c", fall_of(row, run)) : "NOT CONVERGED",
         overlap_of(row, run), clock_text(left));
 }

@@ -16,6 +16,8 @@
 namespace turbidite {
 namespace {
 
+constexpr double most_turns = 1e15;  // windows: no run has as many
+
 double reynolds_velocity_viscosity(const Settings& settings, Scales& scales) {
     if (!settings.has("fluid.reynolds")) return 0.0;
     scales.reynolds = settings.real("fluid.reynolds");
@@ -58,17 +60,18 @@ Scales physical(const Settings& settings) {
 void set_run_times(Settings& settings, double time_scale) {
     const double step = settings.real("time.step");
     const auto windows = std::llround(settings.real("time.end") / step);
-    // An interval beyond the end means the end.
-    const double interval = std::min(settings.real("output.interval"), settings.real("time.end"));
-    const auto every = std::max(1LL, std::llround(interval / step));
+    // The last window is written whether its turn has come or not; an interval beyond the end stays
+    // what it is, so that a run that goes on to a later end has the rows of one in one part.
+    const auto turns = [](double ratio) {
+        return std::llround(std::clamp(ratio, 1.0, most_turns));
+    };
+    const auto every = turns(settings.real("output.interval") / step);
     settings.set("run.step", step * time_scale);
     settings.set("run.windows", std::int64_t{windows});
     settings.set("run.output_every", std::int64_t{every});
     if (!settings.has("output.fields_interval")) return;
-    // One beyond the end means the end here too.
-    const double fields =
-        std::min(settings.real("output.fields_interval"), settings.real("time.end"));
-    const auto outputs = std::max(1LL, std::llround(fields / (step * every)));
+    const double fields = std::min(settings.real("output.fields_interval") / step, most_turns);
+    const auto outputs = turns(fields / static_cast<double>(every));
     settings.set("run.fields_every", std::int64_t{every * outputs});
 }
 

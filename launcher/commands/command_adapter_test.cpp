@@ -3,10 +3,13 @@
 // turbidite adapter-test -- COMMAND: plays a scripted partner against a grains adapter, or with
 // --side fluid against a fluid, and says which requirements it meets.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
+#include "coupler/keys/nearest_name.hpp"
 #include "launcher/adapter_test/requirements.hpp"
 #include "launcher/case/case_file.hpp"
 #include "launcher/case/files/command_words.hpp"
@@ -43,12 +46,6 @@ Finding judge(const Requirement& requirement, const Candidate& candidate,
     }
 }
 
-void check_name(const std::string& adapter) {
-    Settings settings;
-    settings.set("grains.adapter", adapter);
-    grains_adapter(settings);  // throws
-}
-
 const char* word(Grade grade) {
     return grade == Grade::met ? "ok" : grade == Grade::failed ? "FAILS" : "-";
 }
@@ -63,11 +60,27 @@ Failure refused(const std::string& text) {
     return Failure(ExitCode::bad_input, "adapter-test " + text + " Exit code 2.");
 }
 
+bool is_fluid(const std::string& name) {
+    return name == "openfoam" || name == "box";
+}
+
+void check_grains(const std::string& name) {
+    std::vector<std::string> known;
+    for (const GrainsAdapter& adapter : grains_adapters())
+        if (adapter.available()) known.push_back(adapter.name);
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    if (is_fluid(name)) throw refused("plays the fluid " + name + " with --side fluid.");
+    throw refused(fmt::format("knows no grains adapter \"{}\"; there are {}. Do you mean {}?", name,
+                              fmt::join(known, ", "),
+                              fmt::join(nearest_names(name, known), " or ")));
+}
+
 void check_fluid(const Candidate& candidate) {
     const std::string& name = candidate.adapter;
-    if (name == users_program || name == "openfoam") return;
-    if (name != "box")
+    if (name == users_program) return;
+    if (!is_fluid(name))
         throw refused("knows no fluid \"" + name + "\"; there are openfoam and box.");
+    if (name == "openfoam") return;
     if (candidate.dimension == 2)
         throw refused("plays the box program in space only: add --dimension 3.");
 }
@@ -85,7 +98,7 @@ Candidate candidate_of(const AdapterTestOptions& options) {
     if (candidate.side == Role::fluid && !candidate.words.empty() &&
         find_program_file(candidate.words.front()).empty())
         throw refused("finds no executable program " + candidate.words.front() + ".");
-    candidate.side == Role::grains ? check_name(candidate.adapter) : check_fluid(candidate);
+    candidate.side == Role::grains ? check_grains(candidate.adapter) : check_fluid(candidate);
     return candidate;
 }
 

@@ -199,7 +199,10 @@ void keep_outcome(const RunFolder& folder, nlohmann::ordered_json record, JobOut
     }
 }
 
-std::string how_to_go_on(const RunFolder& folder) {
+std::string how_to_go_on(const RunFolder& folder, ExitCode code) {
+    if (code == ExitCode::physics_refused)
+        return "If nothing changes, `turbidite resume` ends in the same way; what to try is in "
+               "docs/running.md, \"After exit code 6\".\n";
     if (!std::filesystem::exists(folder.checkpoints())) return "";
     return fmt::format("Go on from the last checkpoint: turbidite resume {}\n",
                        folder.root.string());
@@ -216,7 +219,12 @@ JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
         return of_record(folder, static_cast<ExitCode>(code->get<int>()),
                          record.value("error", std::string()), ranks);
     JobOutcome outcome = without_a_word(folder, end, ranks);
-    record["status"] = end.signal == 0 ? "failed" : "interrupted";
+    const char* status = end.signal == 0 ? "failed" : "interrupted";
+    record["status"] = status;
+    if (const auto parts = record.find("parts"); parts != record.end() && !parts->empty()) {
+        parts->back()["status"] = status;
+        parts->back().erase("windows_done");  // nobody has said how many
+    }
     record["exit_code"] = static_cast<int>(outcome.code);
     record["error"] = outcome.error;
     keep_outcome(folder, std::move(record), outcome);
@@ -247,7 +255,8 @@ std::string outcome_text(const RunFolder& folder, const JobOutcome& outcome) {
     return fmt::format("{}{}{}\nResults so far in {}. Exit code {}.\n{}",
                        asked_for ? "" : last_words(folder, outcome),
                        asked_for ? "Interrupted: " : "The run failed: ", outcome.error,
-                       folder.root.string(), static_cast<int>(outcome.code), how_to_go_on(folder));
+                       folder.root.string(), static_cast<int>(outcome.code),
+                       how_to_go_on(folder, outcome.code));
 }
 
 std::string last_words(const RunFolder& folder, const JobOutcome& outcome) {

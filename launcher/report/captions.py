@@ -161,7 +161,7 @@ def solvers(run):
     if divergence is not None and run.is_wet():
         text.append(f'Largest divergence after step 1: {divergence:.2g} u_c/D.')
     maxima = run.record.get('maxima') or {}
-    if 'final_divergence' in maxima:
+    if maxima.get('final_divergence'):
         text.append(f'Largest divergence after step 5, in windows with output: {maxima["final_divergence"]:.2g} '
                     'u_c/D (large, since the grains are not part of the volume balance). Largest Courant number: '
                     f'{maxima["courant"]:.2g}.')

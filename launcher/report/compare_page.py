@@ -12,7 +12,7 @@ import member_pictures
 import run_data
 import surface
 from analysis import concentration
-from differences import common_span
+from differences import compared_times
 from document.page import Page
 from head import facts
 from seeds import SEED
@@ -192,12 +192,10 @@ def quantity_panels(comparison, quantity):
 
 
 def difference_curve(first, second):
-    """(times, second - first) over their common time, at the times of both; None without one."""
-    span = common_span(first[0], second[0])
+    """(times, second - first) over their common time; None without one."""
+    times, span = compared_times(first[0], second[0])
     if span is None:
         return None
-    times = np.unique(np.concatenate([first[0], second[0], span]))
-    times = times[(times >= span[0]) & (times <= span[1])]
     return times, np.interp(times, *second) - np.interp(times, *first)
 
 
@@ -285,8 +283,8 @@ def add_analysis(page, members):
 
 def add_differences(page, comparison):
     page.heading(f'Differences from {comparison.members[0].name}')
-    page.paragraph('Over the time both runs cover, interpolated linearly; rms in time; relative to the '
-                   'largest value of the first run. End values are those of each run\'s last row.')
+    page.paragraph('Over the time both runs cover, at the rows of the run with fewer where the other has them too, otherwise '
+                   'interpolated linearly at the rows of both; rms in time; relative to the largest value of the first run. End values are those of each run\'s last row.')
     page.table(difference_rows(comparison), css='numbers',
                header=['quantity', 'run', 'rms', 'relative', 'largest', 'relative', 'end value', 'of the first'])
 

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+SAME_TIME = 1e-9  # of the larger end of the common span
+
 
 @dataclass
 class Difference:
@@ -44,14 +46,27 @@ def integral_of_size(times, values):
     return float((np.diff(times) * mean).sum())
 
 
+def compared_times(first, second):
+    """Where two curves with these increasing times are compared: at the rows of the one that has fewer in their common
+    span, if the other has them all, since what it has in between is curvature to the one and no difference; otherwise at
+    the rows of both. With the ends of the span, which is returned too; (None, None) without one."""
+    span = common_span(first, second)
+    if span is None:
+        return None, None
+    tolerance = SAME_TIME * max(abs(span[0]), abs(span[1]))
+    inside = [times[(times >= span[0] - tolerance) & (times <= span[1] + tolerance)] for times in (first, second)]
+    fewer, more = sorted(inside, key=len)
+    coincide = len(fewer) and all(np.abs(more - time).min() <= tolerance for time in fewer)
+    times = np.concatenate([fewer, span] if coincide else [*inside, span])
+    return np.unique(np.clip(times, *span)), span
+
+
 def difference(first, second):
-    """Difference of two curves (times, values), interpolated linearly at the times of both; None without a common
-    time. Averages are over time, not over rows: rms sqrt(int d^2 dt / T), mean int |d| dt / T."""
-    span = common_span(first[0], second[0])
+    """Difference of two curves (times, values), linear between the times at which they are compared; None without a
+    common time. Averages are over time, not over rows: rms sqrt(int d^2 dt / T), mean int |d| dt / T."""
+    times, span = compared_times(first[0], second[0])
     if span is None:
         return None
-    times = np.unique(np.concatenate([first[0], second[0], span]))
-    times = times[(times >= span[0]) & (times <= span[1])]
     reference = np.interp(times, *first)
     apart = np.interp(times, *second) - reference
     mean_square = integral_of_square(times, apart) / (span[1] - span[0])

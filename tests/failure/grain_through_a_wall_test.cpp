@@ -16,6 +16,7 @@ TEST_F(FailingRun, OverlapEndsTheRun) {
     EXPECT_EQ(answer.code, 6);
     EXPECT_SAYS(answer.err, "limits.penetration = 0.2 D");
     EXPECT_SAYS(answer.err, "Use a smaller time.step, or more contact.iterations");
+    EXPECT_SAYS(answer.err, "`turbidite resume` ends in the same way");
     expect_nothing_left();
 }
 

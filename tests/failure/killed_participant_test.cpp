@@ -28,6 +28,7 @@ TEST_P(KilledParticipant, IsNamedAndNothingIsLeft) {
     EXPECT_SAYS(answer.err, std::string("The run failed: ") + GetParam().name);
     expect_nothing_left();
     expect_good_output_is_kept(ExitCode::participant_failed);
+    EXPECT_EQ(record().at("parts").back().at("status"), "failed");
     expect_report();
 }
 

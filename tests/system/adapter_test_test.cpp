@@ -106,6 +106,8 @@ TEST_F(AdapterTest, TheShippedFluidsConformInSpace) {
     }
     EXPECT_SAYS(judge("--side fluid --adapter box").err, "add --dimension 3");
     EXPECT_SAYS(judge("--side fluid --adapter boxes").err, "there are openfoam and box");
+    EXPECT_SAYS(judge("--adapter openfoam").err, "plays the fluid openfoam with --side fluid");
+    EXPECT_SAYS(judge("--adapter yade-ncsd").err, "Do you mean yade-nscd?");
 }
 
 /// Grains or a fluid with one fault, and the requirement that it does not meet.

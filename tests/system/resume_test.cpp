@@ -125,6 +125,18 @@ INSTANTIATE_TEST_SUITE_P(
                 "contact.adhesion_length=0.05"}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// Its last row, which no turn of the output has, is not one of the longer run.
+TEST_F(Resume, ARunShorterThanItsOutputIntervalGoesOnWithTheRowsOfTheWhole) {
+    scratch.write("case.yaml", wet_case);
+    const std::string box = " --set fluid.enabled=false --set output.interval=0.75";
+    play("run case.yaml --out whole --set time.end=2" + box);
+    play("run case.yaml --out parts --set time.end=0.5" + box);
+    EXPECT_EQ(lines_of_history("parts").size(), 3u);  // header, t = 0, 0.5
+    play("resume parts --set time.end=2");
+    EXPECT_EQ(lines_of_history("whole").size(), 5u);  // 0.75, 1.5, 2
+    EXPECT_EQ(lines_of_history("parts"), lines_of_history("whole"));
+}
+
 TEST_F(Resume, WallsThatMoveGoOnWhereTheyWere) {
     scratch.write("case.yaml", dry_case);
     scratch.write("walls.csv", "id,x1,y1,x2,y2,spin,px,py\n1,6,2,7,2,0.3,6.5,2\n");

@@ -38,6 +38,18 @@ std::string entry_of(const fs::path& file) {
     return name.parent_path() / name.stem();
 }
 
+// A user who plays one sees the grains in YADE; those of validation need no host.
+TEST(ShippedCases, HaveTheirGrainsInYade) {
+    int cases = 0;
+    for (const fs::path& file : shipped_cases()) {
+        if (file.parent_path().filename() == "validation") continue;
+        const YAML::Node grains = YAML::LoadFile(file.string())["grains"];
+        EXPECT_EQ(grains["adapter"].as<std::string>("yade-nscd"), "yade-nscd") << file;
+        ++cases;
+    }
+    EXPECT_GT(cases, 15);
+}
+
 class ShippedCase : public ShellTest, public ::testing::WithParamInterface<fs::path> {};
 
 TEST_P(ShippedCase, PlaysItsFirstWindows) {

@@ -6,24 +6,34 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <string_view>
 
 #include "coupler/keys/key_value.hpp"
 
 namespace turbidite {
 namespace {
 
+constexpr auto blanks = " \t\r";
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets' "CSV UTF-8"
+
+/// Without the blanks around it: one within a number is a fault.
+std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(blanks);
+    if (first == std::string::npos) return "";
+    return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+}
+
 std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> fields(1);
-    for (const char c : line)
-        if (c == ',')
-            fields.emplace_back();
-        else if (c != ' ' && c != '\t' && c != '\r')
-            fields.back() += c;
+    std::vector<std::string> fields;
+    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+        end = line.find(',', begin);
+        fields.push_back(trimmed(line.substr(begin, end - begin)));
+    }
     return fields;
 }
 
 bool is_blank(const std::string& text) {
-    return text.find_first_not_of(" \t\r") == std::string::npos || text.front() == '#';
+    return text.find_first_not_of(blanks) == std::string::npos || text.front() == '#';
 }
 
 bool has(const std::vector<std::string>& list, const std::string& name) {
@@ -91,6 +101,7 @@ CsvTable read_csv(const std::filesystem::path& file, const CsvForm& form) {
     }
     std::string text;
     for (int line = 1; std::getline(input, text); ++line) {
+        if (line == 1 && text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
         if (is_blank(text)) continue;
         if (!table.columns.empty()) {
             read_row(table, line, text);

@@ -69,7 +69,8 @@ const Output& output_at(const std::vector<Output>& outputs, const EarlierRun& ru
 }
 
 /// The numbers of a DataArray of a VTK file in text form.
-std::vector<double> numbers_of(const std::string& text, const std::string& name,
+template <class Number = double>
+std::vector<Number> numbers_of(const std::string& text, const std::string& name,
                                const std::filesystem::path& file) {
     const auto label = text.find("Name=\"" + name + "\"");
     const auto begin = label == std::string::npos ? label : text.find('>', label);
@@ -78,8 +79,8 @@ std::vector<double> numbers_of(const std::string& text, const std::string& name,
         throw refused(fmt::format("{} has no {}", file.string(), name),
                       "It must be a grains file that this version wrote.");
     std::istringstream in(text.substr(begin + 1, end - begin - 1));
-    std::vector<double> numbers;
-    for (double number; in >> number;) numbers.push_back(number);
+    std::vector<Number> numbers;
+    for (Number number; in >> number;) numbers.push_back(number);
     return numbers;
 }
 
@@ -151,7 +152,8 @@ EarlierGrains read_earlier_grains(const EarlierRun& run, const EarlierCase& earl
     const std::filesystem::path file = folder.grains() / output.file;
     const std::string text = whole_text(file);
     const double d = earlier.scales.diameter, u = earlier.scales.velocity;
-    const std::vector<double> id = numbers_of(text, "id", file);
+    // A double would change ids above 2^53.
+    const std::vector<GrainId> id = numbers_of<GrainId>(text, "id", file);
     const std::size_t n = id.size();
     const auto all = [&](const char* name, std::size_t width) {
         return column(text, name, width, n, file);
@@ -164,7 +166,7 @@ EarlierGrains read_earlier_grains(const EarlierRun& run, const EarlierCase& earl
     const bool space = forms.dimension == 3;
     for (std::size_t i = 0; i < n; ++i) {
         result.grains.push_back(
-            {.id = static_cast<GrainId>(id[i]),
+            {.id = id[i],
              // Back to D, u_c and 1/t_c of the earlier run: the case may have other units.
              .x = position[3 * i] / d,
              .y = position[3 * i + 1] / d,

@@ -85,11 +85,11 @@ void time_notes(const Settings& settings, std::vector<std::string>& notes) {
             fmt::format("time.end = {} is not a whole number of steps; the run ends after "
                         "{} windows at {:.6g} t_c",
                         end, windows, windows * step));
-    const double interval = std::min(settings.real("output.interval"), end);
+    const double interval = settings.real("output.interval");
     const double every = step * std::max(1.0, std::round(interval / step));
     if (interval < step)
         notes.push_back("output.interval is shorter than time.step; every window is written");
-    else if (!is_whole_number(interval / step))
+    else if (!is_whole_number(interval / step) && interval < end)
         notes.push_back(
             fmt::format("output.interval = {} is not a whole number of steps; rows "
                         "come every {:.6g} t_c",

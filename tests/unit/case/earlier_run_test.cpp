@@ -16,8 +16,8 @@ std::string array(const char* name, const std::string& numbers) {
 }
 
 /// Two discs of the materials default and steel, the first one moved by `shift`.
-std::string points(double shift) {
-    return array("position", fmt::format("{} 2 0\n5 5 0", 2.0 + shift)) + array("id", "7\n9") +
+std::string points(double shift, const std::string& ids = "7\n9") {
+    return array("position", fmt::format("{} 2 0\n5 5 0", 2.0 + shift)) + array("id", ids) +
            array("shape", "0\n0") + array("material", "0\n1") + array("prescribed", "0\n1") +
            array("radius", "0.5\n0.4") + array("density", "2\n3") +
            array("orientation", "0.8 0 0 0.6\n1 0 0 0") + array("velocity", "0.5 -1 0\n0 0 0") +
@@ -85,6 +85,29 @@ TEST_F(EarlierRuns, ATimeBeforeTheEndIsChosenWithAt) {
     write_case();
     EXPECT_EQ(start("@0").population.at(0).position[0], 2.0);
     EXPECT_EQ(start("@0.5").population.at(0).position[0], 3.5);
+}
+
+// A double has 2^53 + 1 as 2^53.
+TEST_F(EarlierRuns, IdsKeepAllTheirDigits) {
+    write_case();
+    folder.write("old/grains/b.vtp", points(1.5, "9007199254740992\n9007199254740993"));
+    const ResolvedCase later = start("");
+    ASSERT_EQ(later.population.size(), 2u);
+    EXPECT_EQ(later.population[1].id, 9007199254740993);
+    EXPECT_SAYS(later.grains_csv, "\n9007199254740993,");
+}
+
+TEST_F(EarlierRuns, AnOutputWithoutGrainsIsNoStart) {
+    write_case();
+    folder.write("old/grains/b.vtp", points(20.0).replace(points(20.0).find("5 5 0"), 5, "30 5 0"));
+    EXPECT_EQ(start("@0", {"domain.right=free"}).population.size(), 2u);
+    try {
+        start("", {"domain.right=free"});
+        FAIL() << "a run of no grains";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::bad_input);
+        EXPECT_SAYS(std::string(failure.what()), "b.vtp holds no grain inside the box");
+    }
 }
 
 // The coupler reads what `turbidite run` writes.

@@ -88,6 +88,18 @@ TEST(PopulationFile, WhatAFileIsInsteadIsSaid) {
     EXPECT_EQ(read_errors("id,\tx,\ty\n0,\t1,\t1\n"), "");
 }
 
+// A blank within a number may have been a comma: 1 .5 is not 1.5.
+TEST(PopulationFile, BlanksWithinANumberAreFaults) {
+    EXPECT_SAYS(read_errors("id,x,y\n0,1 .5,1\n"), "grains.csv line 2: x = 1 .5");
+    EXPECT_SAYS(read_errors("id,x,y\n1 2,1,1\n"), "line 2: id = 1 2");
+    EXPECT_EQ(read_errors("id , x,y \n 0 ,1.5 , 1\r\n"), "");
+}
+
+// As spreadsheets save "CSV UTF-8".
+TEST(PopulationFile, AByteOrderMarkIsNoPartOfAName) {
+    EXPECT_EQ(read_errors("\xEF\xBB\xBFid,x,y\n0,1,1\n"), "");
+}
+
 TEST(Population, RepeatedIdsAndBadRadii) {
     const Packing grains{{.id = 1, .x = 2, .y = 2},
                          {.id = 1, .x = 5, .y = 5},

@@ -15,6 +15,7 @@ struct LateWindow {
     LateWindow() {
         run.windows = 7000;
         run.step = 0.01;
+        run.output_every = 50;
         state.report.max_penetration = 3e-5;
         state.grains = test_population();
         for (GrainState& grain : state.grains) grain.velocity = {0.0, 0.3456, 0.0};
@@ -37,6 +38,20 @@ TEST(Progress, FitsSixtyColumns) {
     EXPECT_EQ(progress_line(window.row, window.run, 8.0),
               "60.0/70 t_c  fall -0.346 u_c  overlap 3e-05 D  2:13:20 left");
     EXPECT_LE(progress_line(window.row, window.run, 8.0).size(), 60u);
+}
+
+// 0.05 of 0.05 t_c was told as 0.1 of 0.05.
+TEST(Progress, TellsTimesOfShortIntervals) {
+    LateWindow window;
+    window.run.output_every = 5;
+    EXPECT_TRUE(progress_line(window.row, window.run, 8.0).starts_with("60.00/70 t_c"));
+    window.run.output_every = 50;
+    window.run.windows = 7001;
+    EXPECT_TRUE(progress_line(window.row, window.run, 8.0).starts_with("60.00/70.01 t_c"));
+    window.run.output_every = 7000;  // beyond the end
+    window.run.windows = 100;
+    window.row.time = 0.97;
+    EXPECT_TRUE(progress_line(window.row, window.run, 8.0).starts_with("1.0/1 t_c"));
 }
 
 TEST(Progress, SaysThatASolveStoppedAtItsLimit) {

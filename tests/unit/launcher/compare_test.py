@@ -37,6 +37,16 @@ class Differences(unittest.TestCase):
             self.assertAlmostEqual(apart.rms**2, 28.0 / 12.0, places=12)
             self.assertAlmostEqual(apart.mean, 1.25, places=12)
 
+    def test_rows_that_only_one_has_are_no_difference(self):
+        # q = t^2 by both; at t = 0.25 the coarse one knows nothing, and linearly 0.125 instead of 0.0625.
+        fine, coarse = np.arange(9) / 4.0, np.arange(5) / 2.0
+        apart = difference((coarse, coarse**2), (fine, fine**2))
+        self.assertEqual((apart.rms, apart.largest, apart.mean), (0.0, 0.0, 0.0))
+        # Rows that do not coincide are interpolated: 1/3 lies between 0 and 0.5.
+        thirds = np.arange(7) / 3.0
+        apart = difference((coarse, coarse**2), (thirds, thirds**2))
+        self.assertAlmostEqual(apart.largest, 1.0 / 3.0 * (0.5 - 1.0 / 3.0))
+
     def test_of_a_curve_from_itself_is_zero(self):
         curve = np.array([0.0, 1.0, 2.5]), np.array([1.0, -3.0, 2.0])
         apart = difference(curve, curve)
