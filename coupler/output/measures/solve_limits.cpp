@@ -18,9 +18,13 @@ SolveLimit limit(const Settings& settings, const char* iterations, const char* t
 std::string contact_sentence(const RunStatistics& s, const SolveLimits& limits) {
     return fmt::format(
         "in {} of {} windows the contact solver used up its {} sweeps (contact.iterations) before "
-        "contact.tolerance = {:g}; residual up to {:.1e}. Allow more sweeps.",
+        "contact.tolerance = {:g} was met and no grain sank into a smaller one by a hundredth of "
+        "its radius; residual up to {:.1e}{}. Allow more sweeps, or use a smaller time.step.",
         s.maxima.unconverged_windows, s.windows_done, limits.contact.iterations,
-        limits.contact.tolerance, s.contact_residuals.largest());
+        limits.contact.tolerance, s.contact_residuals.largest(),
+        s.maxima.contact_violation
+            ? fmt::format(", contacts violated by up to {:.2g} u_c", *s.maxima.contact_violation)
+            : "");
 }
 
 std::string multiplier_sentence(const RunStatistics& s, const SolveLimits& limits) {

@@ -28,6 +28,11 @@ constexpr double alert_share = 0.02;
 constexpr double turn_share = 1e-5;
 constexpr int turn_rounds = 2;
 
+// A step is solved more exactly while a body sinks into a smaller one by more than this fraction of
+// its radius.
+constexpr double most_sinking = 0.01;
+constexpr double least_tolerance = 1e-13;  // rounding
+
 SurfaceTable surface_table(const EngineSettings& settings) {
     if (!settings.surfaces.empty()) return SurfaceTable(settings.surfaces, settings.surface_pairs);
     Surface only;
@@ -244,8 +249,7 @@ void Engine::remember(const Impulses& found, double dt) {
 /// Solves the problem; if corners rotate fast, again with gaps reduced by the shortfall
 /// (corner_turn.hpp). The iterations are summed over all solves.
 SolverResult Engine::solve(double dt) {
-    SolverResult result =
-        solver_->solve(contacts_.problem, contacts_.guess, settings_.solver_settings);
+    SolverResult result = solve_from(contacts_.guess, dt);
     if (!detection_.has_corners()) return result;
     std::vector<double> shortfalls(contacts_.points.size(), 0.0);
     for (int round = 0; round < turn_rounds; ++round) {
@@ -256,12 +260,38 @@ SolverResult Engine::solve(double dt) {
         for (std::size_t k = 0; k < wanted.size(); ++k)
             contacts_.problem.contacts[k].bias.n -= (wanted[k] - shortfalls[k]) / dt;
         shortfalls = std::move(wanted);
-        SolverResult next =
-            solver_->solve(contacts_.problem, result.impulses, settings_.solver_settings);
+        SolverResult next = solve_from(result.impulses, dt);
         next.iterations += result.iterations;
         result = std::move(next);
     }
     return result;
+}
+
+/// The residual weighs contacts by their impulses, so that of a light body among heavy ones may be
+/// open by as much as one likes. Such a solve goes on with a smaller tolerance until no body sinks
+/// in by more than `most_sinking`; where its sweeps do not suffice, it has not converged.
+SolverResult Engine::solve_from(const Impulses& guess, double dt) {
+    SolverSettings settings = settings_.solver_settings;
+    SolverResult result = solver_->solve(contacts_.problem, guess, settings);
+    while (result.converged && sinking(result, dt) > most_sinking) {
+        settings.tolerance *= 0.1;
+        settings.max_iterations = settings_.solver_settings.max_iterations - result.iterations;
+        if (settings.max_iterations < 1 || settings.tolerance < least_tolerance) {
+            result.converged = false;
+            break;
+        }
+        SolverResult next = solver_->solve(contacts_.problem, result.impulses, settings);
+        next.iterations += result.iterations;
+        result = std::move(next);
+    }
+    return result;
+}
+
+/// Over the contacts of all ranks.
+double Engine::sinking(const SolverResult& result, double dt) {
+    const double here = largest_sinking(contacts_.problem, result.impulses, result.velocities,
+                                        bodies_of_points().radius, dt);
+    return shared_.ranks ? largest(shared_.ranks->ranks(), here) : here;
 }
 
 /// By how much gaps end smaller at these velocities than their speed foretells. A corner that ends

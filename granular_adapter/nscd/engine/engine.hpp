@@ -206,6 +206,8 @@ class Engine {
     void detect();
     void pose(const std::vector<Twist>& free, Mobilities mobilities, double dt);
     SolverResult solve(double dt);
+    SolverResult solve_from(const Impulses& guess, double dt);
+    double sinking(const SolverResult& result, double dt);
     StepReport hand_out(SolverResult result, double dt);
     void sum_impulses();
     void look_at_films(const Impulses& found, const std::vector<Twist>& velocities);

@@ -29,6 +29,22 @@ double violation(const Film* film, double nn, double rn, double un) {
     return nn * std::abs(solve_film(*film, nn, un - nn * rn).impulse - rn);
 }
 
+/// The largest weight(contact) times its violation.
+template <class Weight>
+double largest_violation(const ContactProblem& problem, const Impulses& r,
+                         const std::vector<Twist>& v, Weight weight) {
+    return with_operator(problem, [&](const auto& w) {
+        double largest = 0.0;
+        for (std::size_t k = 0; k < r.size(); ++k) {
+            const Contact& contact = problem.contacts[k];
+            const double u = biased_velocity(contact, v).n;
+            const double left = violation(film_of(problem, k), w.block(k).nn, r[k].n, u);
+            largest = std::max(largest, weight(contact) * left);
+        }
+        return largest;
+    });
+}
+
 }  // namespace
 
 double rounding_floor(const ContactProblem& problem) {
@@ -59,14 +75,17 @@ double natural_map_residual(const ContactProblem& problem, const Impulses& r) {
 
 double contact_violation(const ContactProblem& problem, const Impulses& r,
                          const std::vector<Twist>& v) {
-    return with_operator(problem, [&](const auto& w) {
-        double largest = 0.0;
-        for (std::size_t k = 0; k < r.size(); ++k) {
-            const double u = biased_velocity(problem.contacts[k], v).n;
-            // max |min(u_n, W_nn r_n)|, with films |W_nn (r_n* - r_n)|
-            largest = std::max(largest, violation(film_of(problem, k), w.block(k).nn, r[k].n, u));
-        }
-        return largest;
+    // max |min(u_n, W_nn r_n)|, with films |W_nn (r_n* - r_n)|
+    return largest_violation(problem, r, v, [](const Contact&) { return 1.0; });
+}
+
+double largest_sinking(const ContactProblem& problem, const Impulses& r,
+                       const std::vector<Twist>& v, const std::vector<double>& radius, double dt) {
+    return largest_violation(problem, r, v, [&](const Contact& contact) {
+        double smaller = radius[static_cast<std::size_t>(contact.b)];
+        if (contact.a >= 0)
+            smaller = std::min(smaller, radius[static_cast<std::size_t>(contact.a)]);
+        return dt / smaller;
     });
 }
 

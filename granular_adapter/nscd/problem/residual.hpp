@@ -44,6 +44,11 @@ double natural_map_residual(const ContactProblem& problem, const Impulses& r);
 double contact_violation(const ContactProblem& problem, const Impulses& r,
                          const std::vector<Twist>& v);
 
+/// How far a body sinks in by what is left of a contact in a step of length dt, over the radius of
+/// the smaller body: the largest dt times contact_violation over it. `radius`: of each body [m].
+double largest_sinking(const ContactProblem& problem, const Impulses& r,
+                       const std::vector<Twist>& v, const std::vector<double>& radius, double dt);
+
 /// r without the parts that films carry: what presses on surfaces, which friction sees. Of an exact
 /// update of each contact alone, so that the normal part and those that it limits belong together:
 /// that of r, less the film's at these velocities, differs by the tolerance of the solver, and a

@@ -61,6 +61,33 @@ TEST(SpaceStatics, APocketOfFixedSpheresNeedsNoFriction) {
     EXPECT_EQ(carrying, 3);
 }
 
+/// Deepest overlap within a second of a sphere of radius 1 on one of `small`, over that radius, at
+/// the usual tolerance; and whether all steps converged.
+std::pair<double, bool> heavy_on_light(double small) {
+    Engine engine(scenes::exact_in_space(0.3, 1e-3), scenes::spheres, {scenes::floor(0.3)});
+    engine.bodies().add(scenes::sphere(1, {0.0, small, 0.0}, small));
+    engine.bodies().add(scenes::sphere(2, {0.0, 2.0 * small + 1.01, 0.0}, 1.0));
+    double deepest = 0.0;
+    bool converged = true;
+    for (int i = 0; i < 100; ++i) {
+        converged = engine.step(0.01).converged && converged;
+        engine.move(0.01);
+        deepest = std::max(deepest, engine.max_penetration());
+    }
+    EXPECT_EQ(engine.points().size(), 2u);
+    return {deepest / small, converged};
+}
+
+// A contact of the light one weighs next to nothing in the residual, which is met while it is
+// pressed through: with the residual alone by its whole diameter.
+TEST(SpaceStatics, ALightSphereUnderAHeavyOneIsNotPressedThrough) {
+    for (const double small : {0.2, 0.1, 0.05}) {
+        const auto [deepest, converged] = heavy_on_light(small);
+        EXPECT_TRUE(converged) << small;
+        EXPECT_LT(deepest, 0.05) << small;
+    }
+}
+
 // A column of spheres on the floor carries itself: contact k from the top has k weights.
 TEST(SpaceStatics, AColumnCarriesItsWeight) {
     Engine engine(scenes::exact_in_space(0.3, 1e-12), scenes::spheres, {scenes::floor(0.3)});
