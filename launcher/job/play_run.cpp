@@ -51,7 +51,9 @@ bool has_output(const RunFolder& folder) {
 
 PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const LaunchSite& site) {
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
-    return fill(resolved, own_run_folder(order, resolved.name), site);
+    RunOrder own = order;
+    own.for_openfoam = has_openfoam(resolved.settings);
+    return fill(resolved, own_run_folder(own, resolved.name), site);
 }
 
 PreparedRun fill(const ResolvedCase& resolved, const OwnFolder& own, const LaunchSite& site) {

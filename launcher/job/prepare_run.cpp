@@ -165,12 +165,15 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved, const RunFolde
 
 namespace {
 
-OwnFolder folder_for(const fs::path& wanted, bool force) {
+OwnFolder folder_for(const fs::path& wanted, const RunOrder& order) {
     // The trailing slash of `--out DIR/` would become an empty last part.
     const RunFolder folder{fs::path(fs::absolute(wanted / ".").lexically_normal()).parent_path()};
-    if (!openfoam_finds(folder.root))
+    if (order.for_openfoam && !openfoam_finds(folder.root))
         throw folder_refused(folder.root, "has a space, a quote or a backslash in its path",
-                             "OpenFOAM changes these in file names. Choose another --out.");
+                             order.out.empty()
+                                 ? "OpenFOAM changes these in file names. Start it in another "
+                                   "folder, or give one with --out."
+                                 : "OpenFOAM changes these in file names. Choose another --out.");
     if (fs::exists(folder.root) && !fs::is_directory(folder.root))
         throw folder_refused(wanted, "is a file", "Choose another --out.");
     fs::create_directories(folder.root);
@@ -179,7 +182,7 @@ OwnFolder folder_for(const fs::path& wanted, bool force) {
         throw folder_refused(wanted, "is in use by a run that has not ended",
                              "Wait for it, stop it, or choose another --out.");
     // Only what looks like a run is emptied, and only with the lock.
-    if (force && is_run_folder(folder))
+    if (order.force && is_run_folder(folder))
         empty_run_folder(folder);
     else if (holds_something(folder))
         throw folder_refused(
@@ -193,11 +196,15 @@ OwnFolder folder_for(const fs::path& wanted, bool force) {
 
 }  // namespace
 
+bool has_openfoam(const Settings& settings) {
+    return settings.flag("fluid.enabled") && fluid_program(settings) == FluidProgram::openfoam;
+}
+
 OwnFolder own_run_folder(const RunOrder& order, const std::string& case_name) {
     fs::path wanted = order.out;
     try {
         if (wanted.empty()) wanted = fresh_folder(case_name);
-        return folder_for(wanted, order.force);
+        return folder_for(wanted, order);
     } catch (const fs::filesystem_error& error) {
         throw folder_refused(wanted.empty() ? "runs" : wanted,
                              "cannot be created: " + error.code().message(),
@@ -212,7 +219,7 @@ RunFolder make_run_folder(const RunOrder& order, const std::string& case_name) {
 namespace {
 
 void build_fluid(const Settings& settings, const RunFolder& folder, FluidMesh mesh) {
-    if (!settings.flag("fluid.enabled") || fluid_program(settings) == FluidProgram::box) return;
+    if (!has_openfoam(settings)) return;
     write_fluid_case(settings, folder.fluid());
     if (mesh == FluidMesh::left_out) return;
     build_fluid_mesh(folder.fluid(), folder.log("blockMesh"));

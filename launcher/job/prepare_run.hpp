@@ -19,7 +19,12 @@ namespace turbidite {
 struct RunOrder {
     std::filesystem::path out;  ///< empty: runs/<case name>-<yyyymmdd-hhmmss>
     bool force = false;         ///< empty an existing run folder
+    /// Refuse paths that OpenFOAM does not find (openfoam_path.hpp).
+    bool for_openfoam = true;
 };
+
+/// Whether OpenFOAM works in the folder of a run.
+bool has_openfoam(const Settings& settings);
 
 /// A run folder, and that nobody else may use it.
 struct OwnFolder {

@@ -43,9 +43,7 @@ std::shared_ptr<RunLock> lock_of(const RunFolder& folder, const fs::path& as_giv
 
 /// The folder may have been moved since it was prepared.
 void require_path(const RunFolder& folder, const Settings& settings) {
-    const bool by_openfoam =
-        settings.flag("fluid.enabled") && fluid_program(settings) == FluidProgram::openfoam;
-    if (by_openfoam && !openfoam_finds(folder.root))
+    if (has_openfoam(settings) && !openfoam_finds(folder.root))
         throw refused(folder.root, "has a space, a quote or a backslash in its path",
                       "OpenFOAM changes these in file names. Rename the folder, or move it.");
 }

@@ -115,6 +115,25 @@ void convert_rates(Packing& grains, const Scales& scales) {
             *rate *= factor;
 }
 
+/// "the grains keep density 2.5 of the earlier run; grains.density_ratio = 8 counts for scales and
+/// forecasts alone"; empty where they have what the key says.
+std::string keeps(const Packing& grains, const Settings& settings, const char* key,
+                  const char* what, double (*value)(const PlacedGrain&)) {
+    if (!settings.has(key)) return "";
+    const auto [least, most] =
+        std::minmax_element(grains.begin(), grains.end(),
+                            [&](const auto& a, const auto& b) { return value(a) < value(b); });
+    const double asked = settings.real(key), low = value(*least), high = value(*most);
+    const double same = 1e-6 * asked;  // the series has nine digits
+    if (low <= asked + same && high >= asked - same) return "";
+    const std::string range = high - low <= same ? fmt::format("{:.6g}", low)
+                                                 : fmt::format("{:.6g} to {:.6g}", low, high);
+    return fmt::format(
+        "the grains keep the {} of the earlier run, {}; {} = {} counts for scales and forecasts "
+        "alone",
+        what, range, key, settings.text(key));
+}
+
 StartGrains grains_of(const EarlierStart& start, const Settings& settings,
                       const GrainForms& forms) {
     EarlierGrains read =
@@ -133,6 +152,12 @@ StartGrains grains_of(const EarlierStart& start, const Settings& settings,
                                   read.source));
     if (left > 0)
         notes.push_back(fmt::format("{} of them, which were beyond a free side, left out", left));
+    for (const std::string& note :
+         {keeps(read.grains, settings, "grains.density_ratio", "density ratio",
+                [](const PlacedGrain& grain) { return *grain.density; }),
+          keeps(read.grains, settings, "grains.radius", "radius",
+                [](const PlacedGrain& grain) { return grain.radius; })})
+        if (!note.empty() && !start.poured) notes.push_back(note);
     if (settings.flag("fluid.enabled")) notes.push_back("the fluid starts at rest");
     return {std::move(read.grains), {read.source, {}}, std::move(notes), {}};
 }

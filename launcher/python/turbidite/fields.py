@@ -57,13 +57,13 @@ def fields(data):
     def read(number):
         time, folder = entries[number]
         arrays = Lazy(files.field_names(folder), lambda name: flat(files.cell_values(data, folder, name)) / of.get(name, 1.0))
-        return Field(time / data.scale('t_c'), arrays, *centres(data))
+        return Field(units.in_t_c(data, time), arrays, *centres(data))
 
     def flat(values):
         if data.in_space():
             return values
         return values[0, ..., :2] if values.ndim == 4 else values[0]
-    return Series('fields', [time / data.scale('t_c') for time, _ in entries], read)
+    return Series('fields', [units.in_t_c(data, time) for time, _ in entries], read)
 
 
 def centres(data):
@@ -99,5 +99,5 @@ def plane_series(data, entries):
         at = {one.axis: one.place / data.scale('D'), one.across: middles(one.edges[0]) / data.scale('D'),
               one.up: middles(one.edges[1]) / data.scale('D')}
         arrays = {'U': one.velocity / of['U'], 'p': one.pressure / of['p'], 'covered': one.covered}
-        return Field(one.time / data.scale('t_c'), arrays, at[0], at[1], at[2])
-    return Series('slices', [time / data.scale('t_c') for time, _ in entries], read)
+        return Field(units.in_t_c(data, one.time), arrays, at[0], at[1], at[2])
+    return Series('slices', [units.in_t_c(data, time) for time, _ in entries], read)

@@ -22,8 +22,8 @@ def grains(data):
         arrays = files.read_shaped(path)
         there = files.grains_of(time, path, arrays)
         found = scaled({'position': arrays.pop('Points'), **arrays}, units.of_grains(data, there), data.in_space())
-        return Points(time / data.scale('t_c'), found, outlines_of(data, there))
-    return Trajectories('grains', [time / data.scale('t_c') for time, _ in entries], read)
+        return Points(units.in_t_c(data, time), found, outlines_of(data, there))
+    return Trajectories('grains', [units.in_t_c(data, time) for time, _ in entries], read)
 
 
 def contacts(data):
@@ -37,8 +37,8 @@ def contacts(data):
         there = files.read_grains(time, grain_entries[time]) if time in grain_entries else None
         arrays, of = files.read_shaped(path), units.of_contacts(data, there)
         ends = arrays.pop('Points').reshape(-1, 2, 3)[..., :dimension] / of['ends']
-        return Points(time / data.scale('t_c'), {**scaled(arrays, of, data.in_space()), 'ends': ends})
-    return Series('contacts', [time / data.scale('t_c') for time, _ in entries], read)
+        return Points(units.in_t_c(data, time), {**scaled(arrays, of, data.in_space()), 'ends': ends})
+    return Series('contacts', [units.in_t_c(data, time) for time, _ in entries], read)
 
 
 def entries_of(data, name):

@@ -1,7 +1,23 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a run's files are divided by, so that all is dimensionless as history.csv is. (Files of grains and fields are in
 the run's own units: SI for `scales.kind: physical`, otherwise D = u_c = rho_f = 1.)"""
+import numpy as np
+
 from .readers import reader
+
+SAME_TIME = 1e-8  # of a time: files of series tell nine digits
+
+
+def in_t_c(data, time):
+    """A time of files [t_c]: that of the row of history.csv of this output, digit by digit, so that tables can be joined
+    by it."""
+    own = time / data.scale('t_c')
+    rows = data.history['time'] if data.history is not None else ()
+    if not len(rows):
+        return own
+    nearest = float(rows[np.abs(rows - own).argmin()])
+    return nearest if abs(nearest - own) <= SAME_TIME * abs(own) else own
+
 
 
 def of_grains(data, grains):

@@ -87,6 +87,21 @@ TEST_F(EarlierRuns, ATimeBeforeTheEndIsChosenWithAt) {
     EXPECT_EQ(start("@0.5").population.at(0).position[0], 3.5);
 }
 
+// Densities 2 and 3 and radii 0.5 and 0.4 are theirs, whatever the case says.
+TEST_F(EarlierRuns, WhatTheGrainsKeepIsTold) {
+    write_case();
+    const auto told = [&](const std::vector<std::string>& set) {
+        std::string all;
+        for (const std::string& note : start("", set).notes) all += note + "\n";
+        return all;
+    };
+    EXPECT_SAYS(told({"grains.density_ratio=8"}),
+                "keep the density ratio of the earlier run, 2 to 3; grains.density_ratio = 8");
+    EXPECT_SAYS(told({"grains.radius=0.3", "grains.density_ratio=2.5"}),
+                "keep the radius of the earlier run, 0.4 to 0.5; grains.radius = 0.3");
+    EXPECT_EQ(told({"grains.density_ratio=2.5"}).find("keep"), std::string::npos);
+}
+
 // A double has 2^53 + 1 as 2^53.
 TEST_F(EarlierRuns, IdsKeepAllTheirDigits) {
     write_case();

@@ -130,6 +130,7 @@ TEST(PrepareRun, RefusesAFileAndPathsOpenFoamCannotRead) {
     EXPECT_SAYS(refusal({.out = scratch.path() / "my run"}),
                 "has a space, a quote or a backslash in its path");
     EXPECT_SAYS(refusal({.out = scratch.path() / "back\\slash"}), "backslash in its path");
+    EXPECT_EQ(refusal({.out = scratch.path() / "my run", .for_openfoam = false}), "");
     EXPECT_SAYS(refusal({.out = scratch.path() / "file/run"}), "cannot be created");
 }
 

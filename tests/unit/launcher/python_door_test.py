@@ -164,6 +164,15 @@ class Grains(Door):
         with self.assertRaisesRegex(KeyError, 'Did you mean "velocity"'):
             grains[0]['velocty']
 
+    def test_times_are_those_of_the_rows(self):
+        # Nine digits of seconds are not the row's time in t_c: a table joined by it lost all rows but the first.
+        self.write('grains/grains.pvd', series((0, 'a.vtp'), (0.0200000001, 'b.vtp')))
+        run = turbidite.load(self.folder)
+        self.assertEqual(run.grains.times.tolist(), run.history['time'].tolist())
+        self.assertEqual(run.grains[1].time, 1.0)
+        self.write('grains/grains.pvd', series((0, 'a.vtp'), (0.0201, 'b.vtp')))  # no row is near
+        self.assertAlmostEqual(turbidite.load(self.folder).grains[1].time, 1.005)
+
     def test_over_time_follows_ids(self):
         ids, positions = self.run_folder.grains.over_time('position')
         self.assertEqual(ids.tolist(), [4, 9])
