@@ -97,6 +97,26 @@ std::string unknown_command(const std::string& word) {
         word, nearest_name(word, names), fmt::join(names, ", "));
 }
 
+/// Complains about the first option that the command does not have; empty if all are known.
+std::string unknown_option(const CLI::App& app, const std::vector<std::string>& words) {
+    const auto found =
+        app.get_subcommands([&](const CLI::App* one) { return one->check_name(words[0]); });
+    if (found.empty()) return "";
+    std::vector<std::string> known;
+    for (const CLI::Option* option : found.front()->get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (std::size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
+        const std::string name = words[i].substr(0, words[i].find('='));
+        if (!name.starts_with("--") || std::find(known.begin(), known.end(), name) != known.end())
+            continue;
+        return fmt::format(
+            "turbidite {0}: there is no option {1}\n  Did you mean {2}? turbidite {0} --help lists "
+            "the options.",
+            words[0], name, nearest_name(name, known));
+    }
+    return "";
+}
+
 /// `turbidite help run` is `turbidite run --help`; without a command the help is shown.
 std::vector<std::string> words_of(int argc, char** argv) {
     std::vector<std::string> words(argv + 1, argv + argc);
@@ -125,6 +145,13 @@ int turbidite_main(const std::vector<std::string>& words) {
     try {
         std::vector<std::string> from_the_end(words.rbegin(), words.rend());  // as CLI11 takes them
         app.parse(from_the_end);
+    } catch (const CLI::ExtrasError& error) {
+        // CLI11 names all words behind the one that it does not know.
+        if (const std::string complaint = unknown_option(app, words); !complaint.empty())
+            fmt::print(stderr, "{}", for_stderr(complaint + "\n"));
+        else
+            app.exit(error);
+        return static_cast<int>(ExitCode::bad_input);
     } catch (const CLI::ParseError& error) {
         const bool asked_for = error.get_exit_code() == 0;  // --help, --version
         app.exit(error);

@@ -48,6 +48,11 @@ TEST_F(CommandLine, BadUsage) {
     EXPECT_EQ(turbidite("run " + quickstart + " --frobnicate").code, 2);
     EXPECT_EQ(turbidite("report " + scratch.path().string()).code, 2);
     EXPECT_SAYS(turbidite("chekc x").err, "Did you mean check?");
+    // The word behind it is taken for the case, and the case for one too many.
+    const Answer option = turbidite("run --outt x dry.yaml");
+    EXPECT_EQ(option.code, 2);
+    EXPECT_SAYS(option.err, "turbidite run: there is no option --outt");
+    EXPECT_SAYS(option.err, "Did you mean --out?");
 }
 
 TEST_F(CommandLine, HelpAndVersion) {

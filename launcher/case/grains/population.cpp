@@ -80,8 +80,9 @@ void set_material(CsvTable& table, int line, const std::vector<std::string>& mat
 
 void set_motion(CsvTable& table, int line, const std::vector<std::string>& motions,
                 const std::string& text, PlacedGrain& grain) {
-    grain.prescribed = text != "free";
-    if (text == "free" || text == "fixed" || text == "driven") return;
+    const bool free = text == "free" || text.empty();  // as pandas writes a missing one
+    grain.prescribed = !free;
+    if (free || text == "fixed" || text == "driven") return;
     grain.motion = text;
     if (std::find(motions.begin(), motions.end(), text) == motions.end())
         table.refuse(

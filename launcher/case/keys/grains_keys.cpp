@@ -219,7 +219,7 @@ KeyGroup grains_keys() {
                  .help = "density of the grains over that of the fluid",
                  .allowed =
                      "A ratio above 0; in a fluid above 1 unless coupling.scheme is joint, and "
-                     "with fluid.splitting: marchuk-yanenko at least 0.5.",
+                     "with fluid.splitting: marchuk-yanenko at least 0.5, for a single grain 0.25.",
                  .remedy = "Use for example 1.5."},
                 {.name = "grains.generator",
                  .type = KeyType::choice,

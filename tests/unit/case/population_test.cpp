@@ -55,6 +55,7 @@ TEST(PopulationFile, GrainsFollowMotionsByName) {
         return read_population_csv(folder.write("g.csv", "id,x,y,vx,motion\n" + rows),
                                    plain_discs(), {"default"}, {"shake"});
     };
+    EXPECT_FALSE(read("1,1,1,0,\n").grains.at(0).prescribed);
     const PopulationFile good = read("1,1,1,0,shake\n2,3,1,0,free\n3,5,1,0,fixed\n");
     ASSERT_EQ(texts(good.problems), "");
     EXPECT_TRUE(good.grains[0].prescribed);

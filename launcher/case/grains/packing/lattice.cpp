@@ -137,7 +137,7 @@ PackingResult lattice_packing(const PackingRequest& request) {
     }
     if (used != request.compacity)
         result.notes.push_back(fmt::format(
-            "grains.compacity = {} is clamped to {:.6f}, that of the {} possible lattice",
+            "grains.compacity = {} is clamped to {:.8f}, that of the {} possible lattice",
             request.compacity, used, used == high ? "densest" : "loosest"));
     result.grains = fill_region(request, lattice_spacing(used));
     if (result.grains.empty()) result.refusal = "The box is too small for a single grain.";
