@@ -83,14 +83,15 @@ std::string log_line(const Row& row, const RunValues& run, double per_window) {
         solves(row, run), per_window);
 }
 
-/// So many decimals that times of rows differ, and the end is not passed: at least one, at most
-/// four.
+/// So many decimals that times of rows differ, and the end is not passed: at least one, and at most
+/// what a line of sixty columns has room for.
 int decimals(const RunValues& run) {
     const double interval = static_cast<double>(run.output_every) * run.step / run.time;
     const double end = static_cast<double>(run.windows) * run.step / run.time;
     const auto whole = [](double value) { return std::abs(value - std::round(value)) < 1e-6; };
+    const int most = end < 10.0 ? 4 : end < 100.0 ? 2 : 1;
     int digits = 1;
-    for (double unit = 10.0; digits < 4 && !(whole(interval * unit) && whole(end * unit));
+    for (double unit = 10.0; digits < most && !(whole(interval * unit) && whole(end * unit));
          unit *= 10.0)
         ++digits;
     return digits;
