@@ -196,10 +196,6 @@ OwnFolder folder_for(const fs::path& wanted, const RunOrder& order) {
 
 }  // namespace
 
-bool has_openfoam(const Settings& settings) {
-    return settings.flag("fluid.enabled") && fluid_program(settings) == FluidProgram::openfoam;
-}
-
 OwnFolder own_run_folder(const RunOrder& order, const std::string& case_name) {
     fs::path wanted = order.out;
     try {

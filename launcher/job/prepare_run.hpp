@@ -23,9 +23,6 @@ struct RunOrder {
     bool for_openfoam = true;
 };
 
-/// Whether OpenFOAM works in the folder of a run.
-bool has_openfoam(const Settings& settings);
-
 /// A run folder, and that nobody else may use it.
 struct OwnFolder {
     RunFolder folder;

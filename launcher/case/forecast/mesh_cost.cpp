@@ -55,6 +55,10 @@ FluidProgram fluid_program(const Settings& settings) {
     return box ? FluidProgram::box : FluidProgram::openfoam;
 }
 
+bool has_openfoam(const Settings& settings) {
+    return settings.flag("fluid.enabled") && fluid_program(settings) == FluidProgram::openfoam;
+}
+
 double fluid_memory(const Settings& settings, FluidProgram program) {
     const ProgramMemory& bytes = program == FluidProgram::box ? of_box : of_openfoam;
     const bool second_order = settings.text("fluid.time_scheme") == "second-order";

@@ -20,6 +20,9 @@ const char* program_name(FluidProgram program);
 /// That of a case whose `auto` has been decided (launcher/case/keys/fluid_program.hpp).
 FluidProgram fluid_program(const Settings& settings);
 
+/// Whether OpenFOAM computes a fluid, with a case in the run folder.
+bool has_openfoam(const Settings& settings);
+
 /// Rows of the mesh (coupler/protocol/scene/mesh_rows.hpp); of equal ones where they cannot be
 /// stretched.
 double fluid_rows(const Settings& settings);

@@ -223,9 +223,7 @@ WindowForecast forecast_window(const ResolvedCase& resolved, double cores) {
 
 double predicted_seconds(const ResolvedCase& resolved) {
     const Settings& settings = resolved.settings;
-    const bool meshed =
-        settings.flag("fluid.enabled") && fluid_program(settings) == FluidProgram::openfoam;
-    const double mesh = meshed ? fluid_cells(settings) : 0.0;
+    const double mesh = has_openfoam(settings) ? fluid_cells(settings) : 0.0;
     const double start =
         seconds_to_start + (in_yade(settings) ? seconds_of_yade : 0.0) + seconds_per_cell * mesh;
     const auto windows = static_cast<double>(settings.integer("run.windows"));

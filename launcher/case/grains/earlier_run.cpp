@@ -20,17 +20,11 @@ namespace {
 
 constexpr double same_time = 1e-6;  // of the series' times, which have nine digits
 
-Failure refused(const std::string& fault, const std::string& remedy) {
-    return Failure(ExitCode::bad_input, fmt::format("--from: {}\n  {}\nNothing was started. Exit "
-                                                    "code 2.",
-                                                    fault, remedy));
-}
-
 std::string whole_text(const std::filesystem::path& file) {
     std::ifstream input(file);
     if (!input)
-        throw refused(file.string() + " cannot be read",
-                      "Give the folder of a run that has written grains.");
+        throw start_refused(file.string() + " cannot be read",
+                            "Give the folder of a run that has written grains.");
     return {std::istreambuf_iterator<char>(input), {}};
 }
 
@@ -47,8 +41,8 @@ std::vector<Output> outputs_of(const std::filesystem::path& series) {
     for (std::sregex_iterator at(text.begin(), text.end(), entry), end; at != end; ++at)
         outputs.push_back({parse_real((*at)[1]).value_or(std::nan("")), (*at)[2]});
     if (outputs.empty())
-        throw refused(series.string() + " contains no output",
-                      "Give the folder of a run that has written grains.");
+        throw start_refused(series.string() + " contains no output",
+                            "Give the folder of a run that has written grains.");
     return outputs;
 }
 
@@ -62,10 +56,11 @@ const Output& output_at(const std::vector<Output>& outputs, const EarlierRun& ru
         outputs.begin(), outputs.end(),
         [&](const Output& a, const Output& b) { return distance(a) < distance(b); });
     if (distance(nearest) <= same_time * std::max(time_scale, std::abs(wanted))) return nearest;
-    throw refused(fmt::format("{} has no output at {:.6g} t_c", run.folder.string(), *run.time),
-                  fmt::format("There are {} from {:.6g} to {:.6g} t_c; the nearest is @{:.6g}.",
-                              outputs.size(), outputs.front().time / time_scale,
-                              outputs.back().time / time_scale, nearest.time / time_scale));
+    throw start_refused(
+        fmt::format("{} has no output at {:.6g} t_c", run.folder.string(), *run.time),
+        fmt::format("There are {} from {:.6g} to {:.6g} t_c; the nearest is @{:.6g}.",
+                    outputs.size(), outputs.front().time / time_scale,
+                    outputs.back().time / time_scale, nearest.time / time_scale));
 }
 
 /// The numbers of a DataArray of a VTK file in text form.
@@ -76,8 +71,8 @@ std::vector<Number> numbers_of(const std::string& text, const std::string& name,
     const auto begin = label == std::string::npos ? label : text.find('>', label);
     const auto end = begin == std::string::npos ? begin : text.find('<', begin);
     if (end == std::string::npos)
-        throw refused(fmt::format("{} has no {}", file.string(), name),
-                      "It must be a grains file that this version wrote.");
+        throw start_refused(fmt::format("{} has no {}", file.string(), name),
+                            "It must be a grains file that this version wrote.");
     std::istringstream in(text.substr(begin + 1, end - begin - 1));
     std::vector<Number> numbers;
     for (Number number; in >> number;) numbers.push_back(number);
@@ -88,9 +83,9 @@ std::vector<double> column(const std::string& text, const std::string& name, std
                            std::size_t count, const std::filesystem::path& file) {
     std::vector<double> numbers = numbers_of(text, name, file);
     if (numbers.size() == width * count) return numbers;
-    throw refused(fmt::format("{} has {} numbers of {} for {} grains", file.string(),
-                              numbers.size(), name, count),
-                  "It must be a grains file that this version wrote.");
+    throw start_refused(fmt::format("{} has {} numbers of {} for {} grains", file.string(),
+                                    numbers.size(), name, count),
+                        "It must be a grains file that this version wrote.");
 }
 
 bool same_outline(const ShapeRecord& a, const ShapeRecord& b) {
@@ -103,19 +98,21 @@ bool same_outline(const ShapeRecord& a, const ShapeRecord& b) {
 std::int32_t form_of(const ShapeRecord& shape, const GrainForms& forms) {
     for (std::size_t i = 0; i < forms.forms.size(); ++i)
         if (same_outline(shape, forms.forms[i].record)) return static_cast<std::int32_t>(i);
-    throw refused(fmt::format("the earlier run has grains of shape {}{}, which the case does not "
-                              "have",
-                              shape.kind, shape.kind == "polygon" ? " of other vertices" : ""),
-                  "Give the case the same grains.shape and grains.vertices.");
+    throw start_refused(
+        fmt::format("the earlier run has grains of shape {}{}, which the case does not "
+                    "have",
+                    shape.kind, shape.kind == "polygon" ? " of other vertices" : ""),
+        "Give the case the same grains.shape and grains.vertices.");
 }
 
 std::int32_t material_of(const std::string& name, const std::vector<std::string>& materials) {
     const auto at = std::find(materials.begin(), materials.end(), name);
     if (at != materials.end()) return static_cast<std::int32_t>(at - materials.begin());
-    throw refused(fmt::format("the earlier run has grains of material {}, which the case does not "
-                              "have",
-                              name),
-                  "Define it below contact.materials.");
+    throw start_refused(
+        fmt::format("the earlier run has grains of material {}, which the case does not "
+                    "have",
+                    name),
+        "Define it below contact.materials.");
 }
 
 /// To the digits of the series it is one.
@@ -127,6 +124,12 @@ Quaternion unit(Quaternion q) {
 
 }  // namespace
 
+Failure start_refused(const std::string& fault, const std::string& remedy) {
+    return Failure(ExitCode::bad_input, fmt::format("--from: {}\n  {}\nNothing was started. Exit "
+                                                    "code 2.",
+                                                    fault, remedy));
+}
+
 EarlierRun parse_earlier_run(const std::string& text) {
     EarlierRun run{text, std::nullopt};
     const auto at = text.rfind('@');
@@ -134,12 +137,12 @@ EarlierRun parse_earlier_run(const std::string& text) {
         run.folder = text.substr(0, at);
         run.time = parse_real(text.substr(at + 1));
         if (!run.time || !std::isfinite(*run.time))
-            throw refused(fmt::format("\"{}\" is not a time", text.substr(at + 1)),
-                          "Write DIR@time with the time in t_c, for example runs/a@2.5.");
+            throw start_refused(fmt::format("\"{}\" is not a time", text.substr(at + 1)),
+                                "Write DIR@time with the time in t_c, for example runs/a@2.5.");
     }
     if (!is_there(RunFolder{run.folder}.resolved_case()))
-        throw refused(run.folder.string() + " is not a run folder: it has no case.yaml",
-                      "Give a folder written by `turbidite run`.");
+        throw start_refused(run.folder.string() + " is not a run folder: it has no case.yaml",
+                            "Give a folder written by `turbidite run`.");
     return run;
 }
 

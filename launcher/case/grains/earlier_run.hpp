@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/settings.hpp"
 #include "launcher/case/grains/grain_forms.hpp"
 #include "launcher/case/grains/packing/packing.hpp"
@@ -37,6 +38,9 @@ struct EarlierRun {
     std::optional<double> time;  ///< [t_c]
 };
 EarlierRun parse_earlier_run(const std::string& text);
+
+/// Of a start from an earlier run (bad input): what is wrong with it, and what to do.
+Failure start_refused(const std::string& fault, const std::string& remedy);
 
 /// Throws Failure (bad input) naming the problem: no series, no output at that time (with the
 /// nearest one), a shape or material that the new case does not have.

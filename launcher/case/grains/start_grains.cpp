@@ -145,11 +145,8 @@ StartGrains grains_of(const EarlierStart& start, const Settings& settings,
     const auto left = std::erase_if(
         read.grains, [&](const PlacedGrain& grain) { return is_leaving(grain, box, settings); });
     if (read.grains.empty())
-        throw Failure(ExitCode::bad_input,
-                      fmt::format("--from: {} holds no grain inside the box\n  Give an earlier "
-                                  "output, DIR@TIME with the time in t_c.\nNothing was started. "
-                                  "Exit code 2.",
-                                  read.source));
+        throw start_refused(read.source + " holds no grain inside the box",
+                            "Give an earlier output, DIR@TIME with the time in t_c.");
     if (left > 0)
         notes.push_back(fmt::format("{} of them, which were beyond a free side, left out", left));
     for (const std::string& note :
