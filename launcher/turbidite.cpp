@@ -91,10 +91,9 @@ std::string unknown_command(const std::string& word) {
     std::vector<std::string> names;
     for (const Command& command : commands()) names.push_back(command.name);
     if (std::find(names.begin(), names.end(), word) != names.end()) return "";
-    return fmt::format(
-        "turbidite: there is no command \"{}\"\n  Did you mean {}? The commands are "
-        "{}.",
-        word, nearest_name(word, names), fmt::join(names, ", "));
+    const std::string all = fmt::format("The commands are {}.", fmt::join(names, ", "));
+    return fmt::format("turbidite: there is no command \"{}\"\n  {}", word,
+                       did_you_mean(word, names, all));
 }
 
 /// Complains about the first option that the command does not have; empty if all are known.
@@ -109,10 +108,9 @@ std::string unknown_option(const CLI::App& app, const std::vector<std::string>& 
         const std::string name = words[i].substr(0, words[i].find('='));
         if (!name.starts_with("--") || std::find(known.begin(), known.end(), name) != known.end())
             continue;
-        return fmt::format(
-            "turbidite {0}: there is no option {1}\n  Did you mean {2}? turbidite {0} --help lists "
-            "the options.",
-            words[0], name, nearest_name(name, known));
+        const std::string all = fmt::format("turbidite {} --help lists the options.", words[0]);
+        return fmt::format("turbidite {}: there is no option {}\n  {}", words[0], name,
+                           did_you_mean(name, known, all));
     }
     return "";
 }

@@ -131,10 +131,10 @@ CaseProblem unknown_key(const KeyTable& table, const CaseEntry& entry) {
         problem.remedy = "Remove it.";
         return problem;
     }
-    const std::vector<std::string> nearest = nearest_names(entry.key, names_of(table));
-    problem.allowed = fmt::format("Did you mean {}?", fmt::join(nearest, " or "));
-    if (nearest.size() == 1)
-        problem.allowed += fmt::format(" ({})", find_key(table, nearest.front())->help);
+    const std::vector<std::string> names = names_of(table), near = resembling(entry.key, names);
+    const std::string help =
+        near.size() == 1 ? fmt::format("({})", find_key(table, near.front())->help) : "";
+    problem.allowed = did_you_mean(entry.key, names, help);
     return problem;
 }
 

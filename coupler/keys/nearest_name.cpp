@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/keys/nearest_name.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -65,15 +67,31 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
     return best;
 }
 
-std::vector<std::string> nearest_names(const std::string& name,
-                                       const std::vector<std::string>& known) {
+std::vector<std::string> resembling(const std::string& name,
+                                    const std::vector<std::string>& known) {
     constexpr std::size_t most = 3, typing_error = 2;
     const std::string nearest = nearest_name(name, known);
     if (distance(name, nearest) <= typing_error) return {nearest};
     std::vector<std::string> found;
     for (const std::string& candidate : known)
         if (found.size() < most && has_word(candidate, name)) found.push_back(candidate);
-    return found.empty() ? std::vector<std::string>{nearest} : found;
+    // A third of the letters may be wrong.
+    if (found.empty() && 3 * distance(name, nearest) <= name.size()) return {nearest};
+    return found;
+}
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& known,
+                         const std::string& rest) {
+    const std::vector<std::string> names = resembling(name, known);
+    if (names.empty()) return rest;
+    return fmt::format("Did you mean {}?{}{}", fmt::join(names, " or "), rest.empty() ? "" : " ",
+                       rest);
+}
+
+std::vector<std::string> nearest_names(const std::string& name,
+                                       const std::vector<std::string>& known) {
+    const std::vector<std::string> names = resembling(name, known);
+    return names.empty() ? std::vector<std::string>{nearest_name(name, known)} : names;
 }
 
 }  // namespace turbidite

@@ -147,7 +147,7 @@ void refuse_unknown_keys(const YAML::Node& node, const std::vector<std::string>&
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         complaints.add(item.first, key + " is unknown",
                        fmt::format("A study has {}.", fmt::join(known, ", ")),
-                       "Did you mean " + nearest_name(key, known) + "?");
+                       did_you_mean(key, known, "Correct or remove it."));
     }
 }
 

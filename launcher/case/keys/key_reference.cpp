@@ -68,8 +68,8 @@ void demand_known(const std::string& name) {
         if (const std::string group = group_of(key.name); !group.empty()) known.push_back(group);
     }
     throw Failure(ExitCode::bad_input,
-                  fmt::format("turbidite keys: there is no key or group \"{}\"\n  Did you mean {}?",
-                              name, nearest_name(name, known)));
+                  fmt::format("turbidite keys: there is no key or group \"{}\"\n  {}", name,
+                              did_you_mean(name, known, "`turbidite keys` lists them all.")));
 }
 
 KeyTable selected(const std::vector<std::string>& names) {

@@ -44,10 +44,11 @@ fs::path case_named(const std::string& word, const Programs& programs) {
     if (fs::exists(shipped)) return shipped;
     if (word != name || fs::path(word).has_parent_path() || fs::exists(word)) return word;
     const std::vector<std::string> names = shipped_cases(programs);
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("turbidite: there is no file {0}, and no shipped case of that name\n"
-                              "  Did you mean {1}? The shipped ones are {2}.",
-                              word, nearest_name(word, names), fmt::join(names, ", ")));
+    const std::string all = fmt::format("The shipped ones are {}.", fmt::join(names, ", "));
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("turbidite: there is no file {}, and no shipped case of that name\n  {}", word,
+                    did_you_mean(word, names, all)));
 }
 
 }  // namespace turbidite

@@ -35,14 +35,20 @@ class RunFailed(Error):
 
 
 def nearest(name, known):
-    """The most similar of some names; `friction` finds `contact.friction`."""
+    """The most similar of some names, None if none is like it; `friction` finds `contact.friction`."""
     containing = [other for other in known if name and name in other]
-    return min(containing, key=len) if containing else difflib.get_close_matches(name, known, 1, 0.0)[0]
+    return min(containing, key=len) if containing else next(iter(difflib.get_close_matches(name, known, 1)), None)
+
+
+def did_you_mean(name, known, shown=str):
+    """'Did you mean NAME? ', or nothing; `shown` makes of the name what is shown of it."""
+    found = nearest(str(name), list(known))
+    return f'Did you mean {shown(found)}? ' if found else ''
 
 
 def unknown(what, name, known):
     """The error of a name that is none of the `known`."""
     if not known:
         return UnknownName(f'there is no {what} "{name}", and no other')
-    return UnknownName(f'there is no {what} "{name}". Did you mean "{nearest(str(name), list(known))}"? '
-                       f'There are: {", ".join(known)}')
+    meant = did_you_mean(name, known, '"{}"'.format)
+    return UnknownName(f'there is no {what} "{name}". {meant}There are: {", ".join(known)}')

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from . import case_values, fields, grains, tables
 from .analysis import Analysis
-from .errors import NoSuchRun, NotThere, nearest, unknown
+from .errors import NoSuchRun, NotThere, did_you_mean, unknown
 from .readers import reader
 
 
@@ -25,7 +25,8 @@ def load(folder):
 
 def suggestion(folder):
     runs = [path.parent.name for path in folder.parent.glob('*/case.yaml')] if folder.parent.is_dir() else []
-    return f'. Did you mean {folder.parent / nearest(folder.name, runs)}?' if runs else ''
+    meant = did_you_mean(folder.name, runs, lambda name: folder.parent / name)
+    return f'. {meant.rstrip()}' if meant else ''
 
 
 class Run:

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The entries of configs/expected.yaml: what is expected of each shipped case and study, and what was recorded."""
-import difflib
 import json
 import math
 import re
@@ -114,5 +113,4 @@ def map_of(where, node, example):
 def known_only(where, node, known):
     for key in map_of(where, node, f'{{{known[0]}: ...}}'):
         if key not in known:
-            nearest = difflib.get_close_matches(str(key), known, 1, 0.0)[0]
-            raise Wrong(f'{where}: {key} is unknown. Did you mean {nearest}?')
+            raise Wrong(f'{where}: {key} is unknown. {quantities.did_you_mean(key, known)}Known: {", ".join(known)}.')

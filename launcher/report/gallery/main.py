@@ -5,7 +5,6 @@ Standard input is the document EXPECTED as JSON. Exit code: 0 all holds, 1 some 
 the document; that of the program if it fails.
 """
 import argparse
-import difflib
 import json
 import re
 import signal
@@ -45,8 +44,8 @@ class Gallery:
 
     def entry(self, name):
         if name not in self.entries:
-            nearest = difflib.get_close_matches(name, self.entries, 1, 0.0)[0]
-            raise entries.Wrong(f'the gallery has no {name}. Did you mean {nearest}? `turbidite gallery` lists all.')
+            meant = quantities.did_you_mean(name, self.entries)
+            raise entries.Wrong(f'the gallery has no {name}. {meant}`turbidite gallery` lists all.')
         return self.entries[name]
 
     def form_of(self, name):

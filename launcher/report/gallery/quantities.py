@@ -11,6 +11,11 @@ from measured import MEASURED
 CALL = re.compile(r'(\w+)\((\w+)((?:, *[-\d.e]+)*)\)$')
 
 
+def did_you_mean(name, known):
+    """'Did you mean NAME? ', or nothing if no name is like it."""
+    return ''.join(f'Did you mean {found}? ' for found in difflib.get_close_matches(str(name), known, 1))
+
+
 class Unknown(ValueError):
     """A quantity that is no quantity."""
 
@@ -48,8 +53,7 @@ def quantity(text):
         return NAMED[text].measure
     called = CALL.match(text)
     if not called:
-        nearest = difflib.get_close_matches(text, NAMED, 1, 0.0)[0]
-        raise Unknown(f'"{text}" is no quantity. It is a name of the analysis (did you mean {nearest}?), or one of '
+        raise Unknown(f'"{text}" is no quantity. {did_you_mean(text, NAMED)}It is a name of the analysis, or one of '
                       'end(C), max(C), min(C), at(C, TIME), mean(C, FROM, TO) of a column C')
     name, column, times = called.group(1), called.group(2), [float(v) for v in called.group(3).split(',')[1:]]
     if name not in CALLS or len(times) != CALLS[name][1]:

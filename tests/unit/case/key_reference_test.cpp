@@ -57,5 +57,13 @@ TEST(NearestName, CountsEdits) {
     EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);  // the textbook example
 }
 
+TEST(NearestName, IsToldWhereOneIsAlike) {
+    const std::vector<std::string> options = {"--set", "--out", "--force"};
+    EXPECT_EQ(did_you_mean("--forse", options, "All."), "Did you mean --force? All.");
+    EXPECT_EQ(did_you_mean("--no-report", options, "All."), "All.");
+    EXPECT_EQ(did_you_mean("yade", {"yade-md", "yade-nscd", "lammps-md"}, ""),
+              "Did you mean yade-md or yade-nscd?");
+}
+
 }  // namespace
 }  // namespace turbidite

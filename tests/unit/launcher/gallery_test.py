@@ -90,8 +90,10 @@ class Quantities(RunFolderTest):
         for text in ('end_hight', 'end(a', 'last(mean_speed)', 'at(mean_speed)', 'end(mean_speed, 2)'):
             with self.assertRaises(quantities.Unknown, msg=text):
                 quantities.quantity(text)
-        with self.assertRaisesRegex(quantities.Unknown, 'did you mean end_height'):
+        with self.assertRaisesRegex(quantities.Unknown, 'Did you mean end_height'):
             quantities.quantity('end_hight')
+        with self.assertRaisesRegex(quantities.Unknown, 'is no quantity. It is'):
+            quantities.quantity('xyz')
 
 
 class Entries(unittest.TestCase):
@@ -107,7 +109,7 @@ class Entries(unittest.TestCase):
 
     def test_faults_are_named(self):
         for form, text in (({'expectd': {}}, 'a.full: expectd is unknown. Did you mean expected'),
-                           ({'expected': {'end_hight': {'above': 1}}}, 'did you mean end_height'),
+                           ({'expected': {'end_hight': {'above': 1}}}, 'Did you mean end_height'),
                            ({'expected': {'end_height': {'is': 1}}}, 'is and within belong together'),
                            ({'expected': {'end_height': {}}}, 'above, below'),
                            ({'expected': {'end_height': {'above': 'high'}}}, 'above = high is no number'),

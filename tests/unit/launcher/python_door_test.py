@@ -121,6 +121,8 @@ class Case(Door):
         self.write('runs/rough/case.yaml', CASE)
         with self.assertRaisesRegex(turbidite.NoSuchRun, 'Did you mean .*/runs/rough'):
             turbidite.load(self.folder / 'runs/ruogh')
+        with self.assertRaisesRegex(turbidite.NoSuchRun, 'no run .*/runs/17$'):
+            turbidite.load(self.folder / 'runs/17')
         with self.assertRaisesRegex(turbidite.NoSuchRun, 'no case.yaml'):
             turbidite.load(self.folder / 'runs')
 
