@@ -32,7 +32,7 @@ std::string named(const nscd::Bodies& bodies, std::size_t i) {
 [[noreturn]] void refuse_not_a_number(const nscd::Bodies& bodies, std::size_t i,
                                       const std::string& when) {
     throw PhysicsRefused(named(bodies, i) + " has a position or velocity that is not finite, " +
-                         when + "; use a smaller time.step");
+                         when + "; " + shorter_steps);
 }
 
 }  // namespace
@@ -72,24 +72,24 @@ void check_velocities(const nscd::Bodies& bodies, const std::string& when) {
 }
 
 void check_places(const nscd::Bodies& bodies, const std::vector<Border>& borders,
-                  const std::string& when) {
+                  const std::string& when, const char* remedy) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
         if (!is_finite(bodies.position[i])) refuse_not_a_number(bodies, i, when);
     for (const Border& border : borders) {
         if (border.side != BorderKind::wall) continue;
         for (std::size_t i = 0; i < bodies.size(); ++i)
             if (signed_distance(border.plane, bodies.position[i]) < 0.0)
-                throw PhysicsRefused(named(bodies, i) + " has its centre beyond the " +
-                                     border.name + " wall, " + when +
-                                     (bodies.fixed[i] ? "; its prescribed motion takes it there"
-                                                      : "; use a smaller time.step"));
+                throw PhysicsRefused(
+                    named(bodies, i) + " has its centre beyond the " + border.name + " wall, " +
+                    when + "; " +
+                    (bodies.fixed[i] ? "its prescribed motion takes it there" : remedy));
     }
 }
 
 void check_inside(const nscd::Bodies& bodies, const std::vector<Border>& borders,
-                  const std::string& when) {
+                  const std::string& when, const char* remedy) {
     check_velocities(bodies, when);
-    check_places(bodies, borders, when);
+    check_places(bodies, borders, when, remedy);
 }
 
 std::vector<std::uint8_t> those_inside(const nscd::Bodies& bodies,

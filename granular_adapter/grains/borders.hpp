@@ -42,13 +42,17 @@ std::vector<nscd::Wall> walls_of(const std::vector<Border>& borders);
 /// window 3").
 void check_velocities(const nscd::Bodies& bodies, const std::string& when);
 
-/// The same for a position that is not finite, or a centre beyond a wall.
+/// What keeps a free grain from passing a wall, as contact dynamics has it.
+inline constexpr const char* shorter_steps = "use a smaller time.step";
+
+/// The same for a position that is not finite, or a centre beyond a wall; `remedy` is for a free
+/// grain there.
 void check_places(const nscd::Bodies& bodies, const std::vector<Border>& borders,
-                  const std::string& when);
+                  const std::string& when, const char* remedy = shorter_steps);
 
 /// Both checks.
 void check_inside(const nscd::Bodies& bodies, const std::vector<Border>& borders,
-                  const std::string& when);
+                  const std::string& when, const char* remedy = shorter_steps);
 
 /// Zero for every body that has left through a free side, one for all others.
 std::vector<std::uint8_t> those_inside(const nscd::Bodies& bodies,

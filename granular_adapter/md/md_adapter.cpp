@@ -25,6 +25,9 @@ using Clock = std::chrono::steady_clock;
 // A contact impulse below this fraction of the terms of a grain's momentum balance is rounding.
 constexpr double round_off = 1e-11;
 
+// Springs that are too soft let a grain through a wall, however short the sub-steps.
+constexpr const char* stiffer = "use a larger contact.md_stiffness, or a smaller time.step";
+
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -171,7 +174,8 @@ void MdAdapter::repeat(const Window& window, const std::vector<FreeResponse>& ta
 
 Motion MdAdapter::play(const Window& window) {
     host_.read(bodies_);
-    agree([&] { check_inside(bodies_, borders_, in_window(window) + " before contacts"); });
+    agree(
+        [&] { check_inside(bodies_, borders_, in_window(window) + " before contacts", stiffer); });
     present_.advanced = true;
     if (broken_) return motion(at_protocol_positions());
     // Answered are q^n, at which the fluid solves step 5, and U^{n+4/5}: positions are taken before
@@ -183,7 +187,7 @@ Motion MdAdapter::play(const Window& window) {
     follow_migration(&sent);
     present_.orientation_at_start = sent.orientation;
     host_.read(bodies_);
-    agree([&] { check_inside(bodies_, borders_, in_window(window) + " after contacts"); });
+    agree([&] { check_inside(bodies_, borders_, in_window(window) + " after contacts", stiffer); });
     book_contacts(sent.twist, run, window.step);
     present_.contacts.reset();
     if (window.write_output) present_.contacts = std::move(run.touching);
@@ -231,7 +235,7 @@ Motion MdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kick
     present_.advanced = false;
     agree([&] {
         if (run_.wet || !kicks.empty()) take_kicks(window, kicks);
-        check_inside(bodies_, borders_, in_window(window) + " after the kick");
+        check_inside(bodies_, borders_, in_window(window) + " after the kick", stiffer);
     });
     if (!broken_) remove_leavers();
     report_.wall_seconds = seconds_since(start);

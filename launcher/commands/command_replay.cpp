@@ -100,7 +100,8 @@ int replay(const ReplayOptions& options) {
     const std::filesystem::path kept =
         checkpoint ? kept_checkpoint(recordings, *checkpoint) : std::filesystem::path();
     const ResolvedCase resolved = load_run_folder(recorded.root);
-    const LaunchSite site = this_site();
+    LaunchSite site = this_site();
+    site.programs.scripted_fluid = mesh_of_replay(side) == FluidMesh::left_out;
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
     const auto [folder, lock] = own_run_folder(options.order, resolved.name + "-replay");
     const auto line = replay_arguments(resolved.settings, folder, site, side, recording);

@@ -174,6 +174,11 @@ std::vector<std::filesystem::path> needed_programs(const Settings& settings,
                                                    const Programs& programs) {
     std::vector<std::filesystem::path> needed{programs.coupler(), programs.member()};
     if (settings.flag("fluid.enabled")) needed.push_back(programs.fluid(fluid_program(settings)));
+    if (has_openfoam(settings) && !programs.scripted_fluid) {
+        const auto blockmesh = find_program_file("blockMesh");
+        needed.push_back(blockmesh.empty() ? "blockMesh of OpenFOAM 1912 (Debian package openfoam)"
+                                           : blockmesh);
+    }
     const GrainsAdapter& adapter = grains_adapter(settings);
     if (adapter.host == GrainsHost::command) return needed;  // require_command
     if (adapter.host == GrainsHost::yade) {

@@ -26,6 +26,7 @@ from differences import common_span, difference
 from measured import MEASURED
 from document.page import write_whole
 from document.working import Progress
+from head import facts
 
 
 class Refusal(Exception):
@@ -102,6 +103,7 @@ class Comparison:
     """The content of the page, the CSV and the JSON. Tables by the member's name; unknown values are None."""
 
     members: list     # seeds.Member; the first is the reference
+    remark: str       # that their scales differ, or empty
     quantities: list  # that at least one member has
     parameters: list  # (key, one value per member)
     wall: list        # (seconds of the run, of a window on average) per member
@@ -134,7 +136,7 @@ def check_spans(members):
 def measure(members):
     shown = quantities_of(members)
     return Comparison(
-        members, shown, parameters(members), [findings.wall_seconds(member.data) for member in members],
+        members, facts.differing_scales([run for member in members for run in member.runs]), shown, parameters(members), [findings.wall_seconds(member.data) for member in members],
         {m.name: {q.column: numbers(members[0], m, q.column) for q in shown} for m in members},
         {m.name: peaks.peaks(m) for m in members}, peaks.pairs(members),
         {m.name: member_surface(m) for m in members})
@@ -211,6 +213,7 @@ def described(comparison, member, wall):
 def as_json(comparison):
     return json.dumps({
         'first': comparison.members[0].name, 'parameters': dict(comparison.parameters),
+        'remark': comparison.remark or None,
         'mean_velocity_pairs': [asdict(pair) for pair in comparison.pairs],
         'runs': [described(comparison, member, wall)
                  for member, wall in zip(comparison.members, comparison.wall)]}, indent=2) + '\n'
@@ -237,6 +240,8 @@ def compare(page_file, folders, each=False):
     command = ['turbidite', 'compare', *(['--each'] if each else []), *map(str, folders), '--out', str(page_file)]
     page = compare_page.make_page(comparison, page_file.parent, shlex.join(command)).text()
     working.end()
+    if comparison.remark:
+        print(f'turbidite compare: {comparison.remark}', file=sys.stderr)
     return all([write_whole(page_file, page),
                 write_whole(page_file.with_suffix('.csv'), as_csv(comparison.measured)),
                 write_whole(page_file.with_suffix('.json'), as_json(comparison))])

@@ -41,8 +41,8 @@ def make_page(comparison, folder, command):
     add_groups(page, members)
     page.links(report_links([run for member in members for run in member.runs], folder))
     page.paragraph(facts.units_in_words(members[0].data), 'note')
-    if scales := facts.differing_scales([run for member in members for run in member.runs]):
-        page.paragraph(scales, 'remark')
+    if comparison.remark:
+        page.paragraph(comparison.remark, 'remark')
     page.paragraph(f'Made by: {command}', 'note')
     page.contents()
     add_overview(page, comparison)

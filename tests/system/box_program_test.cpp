@@ -209,9 +209,11 @@ TEST_F(BoxProgram, PlaysWhereOpenFoamIsNotInstalled) {
         "'grains.region=[4, 4]' --set grains.shape=disc --set grains.count=4 --set domain.front=~ "
         "--set domain.back=~ --set output.probes=~",
         without);
-    EXPECT_EQ(plane.code, 4) << plane.out;
-    EXPECT_SAYS(plane.err, "blockMesh was not found");
-    EXPECT_SAYS(plane.err, "fluid.program: box");
+    EXPECT_EQ(plane.code, 2) << plane.out;
+    EXPECT_SAYS(plane.err, "blockMesh of OpenFOAM 1912 (Debian package openfoam) is missing");
+    EXPECT_SAYS(plane.err, "choose another adapter or fluid.program");
+    EXPECT_FALSE(fs::exists(scratch.path() / "plane")) << "nothing was started";
+    EXPECT_EQ(turbidite("check case.yaml --set fluid.program=openfoam", without).code, 2);
 }
 
 /// Nothing of OpenFOAM is loaded with the program.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/multiplier/space/interior_constraint.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <sstream>
 
 #include "coupler/protocol/failure.hpp"
@@ -114,11 +116,19 @@ Eigen::Matrix<double, 6, 6> body_inertia(const ImmersedGrain& grain,
 }
 
 [[noreturn]] void refuse(const ImmersedGrain& grain, const Eigen::Matrix<double, 6, 6>& inertia) {
+    // Over mass and moment of inertia of the cells, which A contains besides M - rho_f V.
+    const double mass = inertia(0, 0) - grain.effective_mass;
+    const double moment = inertia.bottomRightCorner<3, 3>().trace() / 3.0 - grain.effective_inertia;
+    Eigen::Matrix<double, 6, 1> scale;
+    scale << Vector::Constant(1.0 / std::sqrt(mass)), Vector::Constant(1.0 / std::sqrt(moment));
+    const Eigen::Matrix<double, 6, 6> scaled = scale.asDiagonal() * inertia * scale.asDiagonal();
     std::ostringstream text;
-    text << "grain " << grain.id << " and the fluid tied to it have mass " << inertia(0, 0)
-         << " kg and moment of inertia " << inertia(5, 5)
-         << " kg m2, which is not positive definite: use a larger grains.density_ratio, or more "
-            "fluid.cells_per_diameter";
+    text
+        << "grain " << grain.id
+        << " is too light for the cells of fluid that it holds: the inertia of both together, over "
+           "that of the cells, has the eigenvalue "
+        << Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(scaled).eigenvalues()[0]
+        << "; use a larger density, or more fluid.cells_per_diameter";
     throw PhysicsRefused(text.str());
 }
 

@@ -164,8 +164,8 @@ Ruling mesh_fits_in_memory(const Settings& s) {
     if (needed <= limit && cells <= most_cells) return std::nullopt;
     const bool too_many = cells > most_cells;
     return Objection{
-        too_many ? fmt::format("The mesh would have {:.2g} cells; OpenFOAM counts up to {:.0e}.",
-                               cells, most_cells)
+        too_many ? fmt::format("The mesh would have {:.2g} cells; {} counts up to {:.0e}.", cells,
+                               has_openfoam(s) ? "OpenFOAM" : "the box program", most_cells)
                  : fmt::format("The mesh of {:.3g} million cells takes about {:.3g} GB, and there "
                                "are {:.3g} GB{}.",
                                cells / 1e6, needed, limit,
@@ -235,6 +235,9 @@ std::string without_iterative_pressure(const Settings& s) {
 }
 std::string without_iterative_viscosity(const Settings& s) {
     return unless(!is(s, "fluid.viscous_solver", "FFT"), s, "with fluid.viscous_solver: FFT");
+}
+std::string without_iterated_multipliers(const Settings& s) {
+    return unless(!in_space(s), s, "with dimension: 3, where multipliers are in closed form");
 }
 std::string with_splitting(const Settings& s) {
     return "with fluid.splitting: " + s.text("fluid.splitting");
@@ -467,13 +470,13 @@ std::vector<KeySpec> multiplier_keys() {
          .range = open_unit_interval,
          .help = "rms slip at which the multipliers stop; joint: at most a tenth of "
                  "coupling.tolerance",
-         .idle = without_fluid},
+         .idle = without_iterated_multipliers},
         {.name = "fluid.multiplier_iterations",
          .type = KeyType::integer,
          .fallback = "200",
          .range = {.lower = 1.0},
          .help = "largest number of iterations of the multiplier problem",
-         .idle = without_fluid},
+         .idle = without_iterated_multipliers},
     };
 }
 

@@ -61,17 +61,43 @@ std::string with_default(const TransportScheme& scheme) {
     return fmt::format("Gauss {} {}", scheme.name, needs_gradient ? "grad(U)" : "1");
 }
 
+/// The scheme of that name, otherwise the nearest one that needs nothing which this list lacks.
 const TransportScheme& nearest_scheme(const std::string& name) {
+    const std::vector<TransportScheme>& list = transport_scheme_list();
+    const auto called = [&list](const std::string& wanted) {
+        return std::find_if(list.begin(), list.end(),
+                            [&](const TransportScheme& scheme) { return scheme.name == wanted; });
+    };
+    if (const auto own = called(name); own != list.end()) return *own;
     std::vector<std::string> names;
-    for (const TransportScheme& scheme : transport_scheme_list()) names.push_back(scheme.name);
-    const auto at = std::find(names.begin(), names.end(), nearest_name(name, names));
-    return transport_scheme_list()[at - names.begin()];
+    for (const TransportScheme& scheme : list)
+        if (scheme.kind != SchemeKind::by_field) names.push_back(scheme.name);
+    return *called(nearest_name(name, names));
 }
 
 /// The parameter of a limiter is a number from 0 to 1.
 bool is_limiter(const std::string& word) {
     const std::optional<double> k = parse_real(word);
     return k && *k >= 0.0 && *k <= 1.0;
+}
+
+/// What is wrong with the words behind the name of a scheme; empty if nothing is.
+std::string fault_of(const TransportScheme& scheme, const std::vector<std::string>& parameters) {
+    const auto given = static_cast<int>(parameters.size());
+    if (given < scheme.words) return fmt::format("{} needs a parameter.", scheme.name);
+    const bool one = scheme.words == 1;
+    if (scheme.kind == SchemeKind::limited && one && !is_limiter(parameters[0]))
+        return fmt::format("The parameter of {} is a number from 0 to 1, not {}.", scheme.name,
+                           parameters[0]);
+    if (scheme.kind == SchemeKind::biased && one && parameters[0] != "grad(U)")
+        return fmt::format("The parameter of {} is grad(U), not {}.", scheme.name, parameters[0]);
+    // Of some others the list does not say how many they read.
+    const bool counted =
+        one || scheme.kind == SchemeKind::central || scheme.kind == SchemeKind::limited;
+    if (counted && given > scheme.words)
+        return fmt::format("{} takes {}, so \"{}\" means nothing.", scheme.name,
+                           one ? "one parameter" : "no parameter", parameters[scheme.words]);
+    return "";
 }
 
 }  // namespace
@@ -93,12 +119,8 @@ SchemeChoice read_transport_scheme(const std::string& text) {
     if (words.empty()) return {nullptr, "Gauss is followed by an interpolation scheme.", remedy};
     if (name != nearest.name)
         return {nullptr, fmt::format("OpenFOAM 1912 has no scheme {}.", name), remedy};
-    if (static_cast<int>(words.size()) <= nearest.words)
-        return {nullptr, fmt::format("{} needs a parameter.", name), remedy};
-    if (nearest.kind == SchemeKind::limited && nearest.words == 1 && !is_limiter(words[1]))
-        return {nullptr,
-                fmt::format("The parameter of {} is a number from 0 to 1, not {}.", name, words[1]),
-                remedy};
+    const std::string fault = fault_of(nearest, {words.begin() + 1, words.end()});
+    if (!fault.empty()) return {nullptr, fault, remedy};
     return {&nearest, {}, {}};
 }
 

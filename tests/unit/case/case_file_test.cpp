@@ -471,6 +471,17 @@ TEST_F(CaseFile, AnUnknownTransportSchemeIsAnsweredWithTheNearest) {
     EXPECT_SAYS(refusal("", {set + "vanLeer"}), "Use Gauss vanLeer.");
     EXPECT_SAYS(refusal("", {set + "Gauss"}), "Use Gauss limitedLinearV 1.");
     EXPECT_EQ(refusal("", {set + "bounded Gauss upwind"}), "");
+    const std::string none = refusal("", {set + "Gauss nonsense"});  // CoBlended is as near
+    EXPECT_SAYS(none, "has no scheme nonsense. Use Gauss ");
+    EXPECT_EQ(none.find("Blended"), std::string::npos) << none;
+}
+
+TEST_F(CaseFile, WordsThatATransportSchemeDoesNotReadAreRefused) {
+    const std::string set = "fluid.transport_scheme=Gauss ";
+    EXPECT_SAYS(refusal("", {set + "LUST grad(p)"}), "of LUST is grad(U), not grad(p). Use");
+    EXPECT_SAYS(refusal("", {set + "linear 3"}), "linear takes no parameter, so \"3\" means");
+    EXPECT_SAYS(refusal("", {set + "linearUpwind grad(U) bar"}), "takes one parameter, so \"bar\"");
+    EXPECT_EQ(refusal("", {set + "LUST grad(U)"}), "");
 }
 
 TEST_F(CaseFile, TheParameterOfALimiterIsFrom0To1) {

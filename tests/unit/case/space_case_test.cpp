@@ -167,6 +167,43 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
     EXPECT_EQ(with({"coupling.scheme=joint", "grains.density_ratio=1.2"}), "");
 }
 
+// What the cells hold is up to a tenth less than what the sphere displaces.
+TEST_F(SpaceCase, ALightSphereIsHeavierThanItsCellsMayLack) {
+    const auto said = [this](const std::string& density, const std::string& cells) {
+        return refusal("",
+                       {"fluid.enabled=true", "fluid.reynolds=10", "coupling.scheme=joint",
+                        "fluid.splitting=explicit-multiplier", "fluid.cells_per_diameter=" + cells,
+                        "grains.density_ratio=" + density});
+    };
+    EXPECT_SAYS(said("0.2", "8"), "density = 0.2");
+    EXPECT_SAYS(said("0.2", "8"), "a density above 15/c^2 with c cells across");
+    EXPECT_EQ(said("0.24", "8"), "");
+    EXPECT_EQ(said("0.2", "10"), "");
+}
+
+TEST_F(SpaceCase, TheFluidSeesASphereOfSomeCells) {
+    const auto said = [this](const std::string& radius) {
+        return refusal("", {"fluid.enabled=true", "fluid.reynolds=10", "fluid.cells_per_diameter=8",
+                            "fluid.hydrodynamic_radius=" + radius});
+    };
+    EXPECT_SAYS(said("0.01"), "the fluid sees a diameter of 0.68 cells");
+    EXPECT_SAYS(said("0.48"), "a grain is at least 4.5 cells wide");
+    EXPECT_EQ(said("0.49"), "");  // 8 (0.49 + 0.3/4) = 4.52
+}
+
+TEST_F(SpaceCase, MultipliersInClosedFormHaveNoTolerance) {
+    const auto notes = [this](std::vector<std::string> keys) {
+        std::string all;
+        keys.insert(keys.end(),
+                    {"fluid.enabled=true", "fluid.reynolds=10", "fluid.cells_per_diameter=8"});
+        for (const std::string& note : load("", keys).notes) all += note + "\n";
+        return all;
+    };
+    EXPECT_SAYS(notes({"fluid.multiplier_tolerance=1e-5"}), "where multipliers are in closed form");
+    EXPECT_SAYS(notes({"fluid.multiplier_iterations=7"}), "where multipliers are in closed form");
+    EXPECT_EQ(notes({}).find("closed form"), std::string::npos);
+}
+
 // As transport_on_rows (fluid_adapter/foam_app/makeFluidStep.cpp) and the box program take them.
 TEST_F(SpaceCase, TransportInSpaceIsOnRows) {
     const auto said = [this](const std::string& scheme, const std::string& program) {

@@ -156,6 +156,18 @@ class Compare(RunFolderTest):
         self.assertIsNone(lacking['quantities']['contact_iterations']['end_value'])
         self.assertIsNone(lacking['wall_ratio'])
 
+    def test_other_scales_are_told_wherever_numbers_are(self):
+        for name, speed in (('slow', 0.05), ('fast', 0.07)):
+            self.write_run(name, 1.0)
+            self.write(f'{name}/run.json', json.dumps({
+                'status': 'done', 'D': 1e-3, 'u_c': speed, 't_c': 1e-3 / speed, 'g': 9.81}))
+        self.assertEqual(self.run_it('slow', 'slow'), (0, ''))
+        self.assertIsNone(self.result()['remark'])
+        code, err = self.run_it('slow', 'fast')
+        self.assertEqual(code, 0)
+        for told in (err, self.result()['remark'], (self.folder / 'page.html').read_text()):
+            self.assertIn('The scales of these runs differ', told)
+
     def test_no_common_time(self):
         self.write_run('one', 1.0)
         self.write_run('later', 1.0, times=range(5, 8))
