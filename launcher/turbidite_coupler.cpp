@@ -80,10 +80,11 @@ void record_failure(const std::string& directory, ExitCode code, const std::stri
 Meeting join(const std::string& directory, const Settings& settings,
              std::optional<MpiEnvironment>& mpi) {
     const bool with_fluid = settings.flag("fluid.enabled");
-    Joining joining(directory, settings, participants(with_fluid), [&](const std::string& text) {
-        std::fprintf(stderr, "turbidite: %s\n", text.c_str());
-        record_failure(directory, ExitCode::stalled, text);
-    });
+    Joining joining(directory, settings, participants(with_fluid),
+                    [&](ExitCode code, const std::string& text) {
+                        std::fprintf(stderr, "turbidite: %s\n", text.c_str());
+                        record_failure(directory, code, text);
+                    });
     return meet_participants(joining, joining.join_world(mpi), with_fluid);
 }
 

@@ -52,10 +52,11 @@ void record_end(const RunFolder& folder, ExitCode code, const std::string& reaso
 MPI_Comm join(const RunFolder& folder, const Settings& settings, const std::string& role,
               std::optional<MpiEnvironment>& mpi) {
     const Role participant = role == role_name(Role::fluid) ? Role::fluid : Role::grains;
-    Joining joining(folder.root, settings, {participant}, [&](const std::string& text) {
-        std::fprintf(stderr, "turbidite-replay: %s\n", text.c_str());
-        record_end(folder, ExitCode::stalled, text);
-    });
+    Joining joining(folder.root, settings, {participant},
+                    [&](ExitCode code, const std::string& text) {
+                        std::fprintf(stderr, "turbidite-replay: %s\n", text.c_str());
+                        record_end(folder, code, text);
+                    });
     return joining.meet(joining.join_world(mpi)).intercomm;
 }
 

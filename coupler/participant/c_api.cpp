@@ -229,7 +229,7 @@ class CAdapter final : public GrainsAdapter {
     }
 
     int run(int* argc, char*** argv, const char* run_folder) {
-        Launch launch{argc, argv, run_folder, c_.communicator};
+        Launch launch{argc, argv, run_folder ? run_folder : "", c_.communicator};
         if (c_.joined)
             launch.joined = [this](int communicator) { c_.joined(c_.self, communicator); };
         return run_grains(*this, launch);

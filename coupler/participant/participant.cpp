@@ -37,6 +37,29 @@ std::string hash_of_run(const std::string& run_folder) {
     return case_hash({std::istreambuf_iterator<char>(file), {}});
 }
 
+/// Throws Failure where this program is alone, or first, in its job: the coupler is world rank 0.
+void require_coupler(Role role, MPI_Comm local) {
+    int place = 0, all = 0, own = 0;
+    PMPI_Comm_rank(MPI_COMM_WORLD, &place);
+    PMPI_Comm_size(MPI_COMM_WORLD, &all);
+    PMPI_Comm_size(local, &own);
+    if (place > 0 && own < all) return;
+    throw Failure(ExitCode::bad_input,
+                  std::string("there is no coupler in this job: programs that play the ") +
+                      role_name(role) +
+                      " are started by `turbidite run`, with grains.command or fluid.program, and "
+                      "by `turbidite adapter-test`");
+}
+
+/// Throws Failure if the folder is none of a run: the library reads and writes there.
+void require_run_folder(const std::string& folder) {
+    if (std::error_code none; std::filesystem::exists(folder + "/case.yaml", none)) return;
+    throw Failure(ExitCode::participant_failed,
+                  "\"" + folder +
+                      "\" is no run folder, it has no case.yaml: give the library the last word of "
+                      "the command line");
+}
+
 MPI_Comm own_communicator(Role role, std::uintptr_t given) {
     // A host that has split the world already, as YADE's mpy does, gives its own communicator.
     if (given == 0) return split_world(role);
@@ -50,6 +73,8 @@ struct Membership::State {
         : role(role_),
           mpi(launch.argc, launch.argv),
           local(own_communicator(role_, launch.communicator)) {
+        require_coupler(role,
+                        local);  // before a log is written: it might be that of a finished run
         PMPI_Comm_rank(local, &rank);
         PMPI_Comm_size(local, &ranks);
         run_folder = launch.run_folder;
@@ -113,7 +138,8 @@ void Membership::abort(const std::exception& error) {
 namespace {
 
 template <class Adapter>
-int run(Role role, Adapter& adapter, const Launch& launch) {
+int play(Role role, Adapter& adapter, const Launch& launch) {
+    require_run_folder(launch.run_folder);
     Membership membership(role, launch);
     const auto session = make_session(adapter, membership.channel(), membership.identity());
     try {
@@ -122,6 +148,17 @@ int run(Role role, Adapter& adapter, const Launch& launch) {
         return membership.leave(session->outcome());
     } catch (const std::exception& error) {
         membership.abort(error);
+    }
+}
+
+/// Failures before the coupler knows this program end it: turbidite-member tells the others.
+template <class Adapter>
+int run(Role role, Adapter& adapter, const Launch& launch) {
+    try {
+        return play(role, adapter, launch);
+    } catch (const Failure& failure) {
+        std::fprintf(stderr, "turbidite: %s: %s\n", role_name(role), failure.what());
+        return static_cast<int>(failure.code());
     }
 }
 

@@ -41,8 +41,8 @@ struct Launch {
 class Membership {
  public:
     /// Joins the job: MPI_Init unless MPI runs already, the one split of the world, then the
-    /// intercommunicator. Blocks until the coupler has accepted. Throws Failure if the log cannot
-    /// be written.
+    /// intercommunicator. Blocks until the coupler has accepted. Throws Failure if there is no
+    /// coupler in the job, as where the program was started by hand, or the log cannot be written.
     Membership(Role role, const Launch& launch);
     ~Membership();
 
@@ -63,7 +63,8 @@ class Membership {
 
 /// The whole life of a grains program: joins the job, makes the calls of the adapter until the run
 /// is over, and finalises MPI if it has initialised it. Returns the exit code of the program
-/// (ExitCode). If the coupler no longer answers it aborts the whole job and does not return.
+/// (ExitCode), in words on stderr where it cannot join. If the coupler no longer answers it aborts
+/// the whole job and does not return.
 int run_grains(GrainsAdapter& adapter, const Launch& launch);
 
 /// The same for a fluid.

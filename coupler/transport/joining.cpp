@@ -7,12 +7,18 @@
 namespace turbidite {
 
 Joining::Joining(std::filesystem::path run, const Settings& settings, std::vector<Role> roles,
-                 std::function<void(const std::string&)> failed)
+                 std::function<void(ExitCode, const std::string&)> failed)
     : run_(std::move(run)),
       settings_(settings),
       roles_(std::move(roles)),
-      watch_(settings.real("limits.start"),
-             [this, failed = std::move(failed)] { failed(who_is_late()); }) {}
+      watch_(
+          settings.real("limits.start"), [this] { return !who_has_left().empty(); },
+          [this, failed = std::move(failed)] {
+              const std::vector<StartRecord> left = who_has_left();
+              const ExitCode code = left.empty() ? ExitCode::stalled : ExitCode::participant_failed;
+              failed(code, left.empty() ? who_is_late() : left_text(left));
+              return code;
+          }) {}
 
 MPI_Comm Joining::join_world(std::optional<MpiEnvironment>& mpi) {
     // Returns only when all programs of the job have called MPI_Init.
@@ -28,6 +34,10 @@ MPI_Comm Joining::join_world(std::optional<MpiEnvironment>& mpi) {
 JoinedParticipant Joining::meet(MPI_Comm local) {
     // Without a limit of its own: the watch is running.
     return accept_participant(local, std::numeric_limits<double>::infinity());
+}
+
+std::vector<StartRecord> Joining::who_has_left() const {
+    return left_before(awaited_, run_, roles_, settings_);
 }
 
 std::string Joining::who_is_late() const {

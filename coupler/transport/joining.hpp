@@ -19,10 +19,11 @@ namespace turbidite {
 
 class Joining {
  public:
-    /// `roles` are the participants of the job. After limits.start without all of them, `failed` is
-    /// called with a message, from another thread, and the process ends with code 5.
+    /// `roles` are the participants of the job. After limits.start without all of them, or once one
+    /// of them has left MPI instead, `failed` is called with the code (5 or 4) and a message, from
+    /// another thread, and the process ends with that code.
     Joining(std::filesystem::path run, const Settings& settings, std::vector<Role> roles,
-            std::function<void(const std::string&)> failed);
+            std::function<void(ExitCode, const std::string&)> failed);
 
     /// Initialises MPI and splits the world. Returns this program's own communicator.
     MPI_Comm join_world(std::optional<MpiEnvironment>& mpi);
@@ -31,6 +32,7 @@ class Joining {
     JoinedParticipant meet(MPI_Comm local);
 
  private:
+    std::vector<StartRecord> who_has_left() const;
     std::string who_is_late() const;
 
     std::filesystem::path run_;

@@ -135,17 +135,24 @@ struct StartWatch::State {
     std::atomic<bool> armed{true};
 };
 
-StartWatch::StartWatch(double limit, std::function<void()> expired)
+StartWatch::StartWatch(double limit, std::function<bool()> hopeless,
+                       std::function<ExitCode()> expired)
     : state_(std::make_shared<State>()) {
     // Detached, and with a share of the state: it may outlive the watch by one sleep of 50 ms.
-    std::thread([state = state_, limit, expired = std::move(expired)] {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
-        while (state->armed && std::chrono::steady_clock::now() < end)
+    std::thread([state = state_, limit, hopeless = std::move(hopeless),
+                 expired = std::move(expired)] {
+        using Clock = std::chrono::steady_clock;
+        const auto end = Clock::now() + std::chrono::duration<double>(limit);
+        auto ask = Clock::now() + std::chrono::seconds(1);
+        while (state->armed && Clock::now() < end) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
+            if (!state->armed || Clock::now() < ask) continue;
+            if (hopeless()) break;
+            ask = Clock::now() + std::chrono::seconds(1);
+        }
         if (!state->armed) return;
-        expired();
         // Without the handlers of exit(): the main thread hangs inside MPI.
-        _exit(static_cast<int>(ExitCode::stalled));
+        _exit(static_cast<int>(expired()));
     }).detach();
 }
 

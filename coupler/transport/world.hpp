@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/hello.hpp"
 
 namespace turbidite {
@@ -54,12 +55,13 @@ std::vector<int> world_ranks_of_peers(MPI_Comm intercomm);
 /// The doorbell of a process of this job, which is there as soon as it has an intercommunicator.
 std::string bell_name(int world_rank);
 
-/// Ends a job that hangs during its start: unless `disarm`ed within `limit` seconds the process
-/// calls `expired` and exits with code `stalled`, which makes mpirun end the job. Used for the
-/// waits that cannot be polled: MPI_Init and the split of the world.
+/// Ends a job that hangs during its start: unless `disarm`ed within `limit` seconds, or until
+/// `hopeless`, the process calls `expired` and exits with the code that it returns, which makes
+/// mpirun end the job. Used for the waits that cannot be polled: MPI_Init and the split of the
+/// world.
 class StartWatch {
  public:
-    StartWatch(double limit, std::function<void()> expired);
+    StartWatch(double limit, std::function<bool()> hopeless, std::function<ExitCode()> expired);
     ~StartWatch();
     void disarm();
 

@@ -36,7 +36,15 @@ int resume(const ResumeOptions& options) {
     }
     tell(fmt::format("{} goes on after window {}, {:g} t_c\n", resumed->run.folder.root.string(),
                      resumed->windows, resumed->time));
-    if (!options.dry_run) return static_cast<int>(play(resumed->run, site.programs).code);
+    if (!options.dry_run) {
+        const ExitCode code = play(resumed->run, site.programs).code;
+        if (take_back_overrides(*resumed, code))
+            tell_on_stderr(
+                fmt::format("No window was played with {}: the folder has the values "
+                            "again that it had before.\n",
+                            fmt::join(options.overrides, ", ")));
+        return static_cast<int>(code);
+    }
     std::fflush(nullptr);
     fmt::print("{}\n", shell_line(resumed->run.line));
     return static_cast<int>(ExitCode::done);

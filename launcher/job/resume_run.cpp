@@ -381,11 +381,15 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     if (fs::exists(folder.recordings())) put_aside(folder.recordings());
     if (!chosen) {
         say("there is no checkpoint yet; the run starts from the beginning");
-        return Resumed{from_the_beginning(resolved, folder, lock, site, overrides), 0, 0.0};
+        return Resumed{from_the_beginning(resolved, folder, lock, site, overrides), 0, 0.0, "", ""};
     }
-    if (!overrides.empty())
+    std::string case_before;
+    const std::string hash_before = read_run_json(folder.record()).value("case_hash", "");
+    if (!overrides.empty()) {
+        case_before = read_whole(folder.resolved_case());
         // Before the job: its programs read the case and compare its hash.
         write_whole(folder.resolved_case(), [&](std::ostream& out) { out << resolved.yaml; });
+    }
     prepare_fluid(resolved, folder, *chosen);
     keep_for_recording(resolved, folder, *chosen);
     const auto line = launch_arguments(resolved.settings, folder, site, chosen->name);
@@ -394,7 +398,23 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     put_run_on_disk(folder);
     return Resumed{{folder, lock, line, rank_names(resolved.settings), resolved.settings},
                    chosen->manifest.windows,
-                   chosen->manifest.time};
+                   chosen->manifest.time,
+                   case_before,
+                   hash_before};
+}
+
+bool take_back_overrides(const Resumed& resumed, ExitCode code) {
+    const bool refused =
+        code == ExitCode::participant_failed || code == ExitCode::handshake_refused;
+    if (!refused || resumed.case_before.empty()) return false;
+    const RunFolder& folder = resumed.run.folder;
+    auto record = read_run_json(folder.record());
+    if (record["parts"].back().value("windows_done", resumed.windows) > resumed.windows)
+        return false;
+    write_whole(folder.resolved_case(), [&](std::ostream& out) { out << resumed.case_before; });
+    record["case_hash"] = resumed.hash_before;
+    write_run_json(folder.record(), record);
+    return true;
 }
 
 }  // namespace turbidite

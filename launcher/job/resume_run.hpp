@@ -15,6 +15,8 @@ struct Resumed {
     PreparedRun run;
     std::int64_t windows = 0;  ///< done before
     double time = 0.0;         ///< [t_c]
+    std::string case_before;   ///< text of case.yaml before overrides; empty without
+    std::string hash_before;   ///< of the resolved case
 };
 
 /// Makes the folder ready; empty if its run is complete. `say` gets a line for a damaged checkpoint
@@ -28,6 +30,11 @@ std::optional<Resumed> prepare_resumption(const std::filesystem::path& folder,
                                           const std::vector<std::string>& overrides,
                                           const LaunchSite& site,
                                           const std::function<void(const std::string&)>& say);
+
+/// After a job that failed before its first window: the folder has the values again that it had
+/// before the overrides, which what has refused them would refuse each time. False if it keeps
+/// them.
+bool take_back_overrides(const Resumed& resumed, ExitCode code);
 
 /// Keys that may differ from those of the checkpoint; a trailing dot stands for a group.
 const std::vector<std::string>& keys_that_may_change();

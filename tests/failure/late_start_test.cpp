@@ -62,6 +62,20 @@ INSTANTIATE_TEST_SUITE_P(
                             "is due to send \"hello\" at the start"}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// It waits in MPI_Finalize for those who wait for it: nobody has to wait for limits.start.
+TEST_F(LateStart, AProgramThatLeavesInsteadOfJoiningEndsTheJobAtOnce) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Answer answer = run_with(LATECOMER " leave", "--set limits.start=100");
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(seconds.count(), 50.0);
+    EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "grains rank 0 (" LATECOMER);
+    EXPECT_SAYS(answer.err, "has left MPI (MPI_Finalize) without joining the run");
+    EXPECT_SAYS(answer.err, "Last lines of logs/grains.log:\n    no further than leave");
+    EXPECT_EQ(record().at("exit_code"), 4);
+    expect_nothing_left();
+}
+
 // Of several ranks all are named, and no rank of another program.
 TEST_F(LateStart, AllRanksThatDoNotJoinAreNamed) {
     const Answer answer = run_with(LATECOMER " init", "--set grains.ranks=2");

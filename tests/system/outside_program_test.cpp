@@ -12,6 +12,8 @@ namespace fs = std::filesystem;
 /// Grains that fall freely. `lies` after so many states: their checksums are told wrongly from then
 /// on. `bytes`: gives up in window 3 with bytes that are no UTF-8. `colours`: with letters for a
 /// terminal. `taken`: somebody else has its doorbell. `ranks`: they count their grains together.
+/// `typo`: an error before it joins. `elsewhere`: takes another folder for that of the run.
+/// `zeros`: returns a number where its state is asked for.
 const char* const free_fall = R"(import os, socket, sys
 if sys.argv[1] == 'taken':
     thief = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
@@ -31,7 +33,13 @@ class Mine(Falling):
         if window.index == 3 and sys.argv[1] == 'ranks':
             print(self.comm.allreduce(len(self.grains)), 'grains on', self.comm.size, 'ranks', flush=True)
         return super().advance(window, responses)
+    def save(self):
+        return 5 if sys.argv[1] == 'zeros' else super().save()
 
+if sys.argv[1] == 'typo':
+    turbidite.run_grain(Mine(turbidite), sys.argv[-1])
+if sys.argv[1] == 'elsewhere':
+    turbidite.run_grains(Mine(turbidite), '/tmp')
 if on_the_wire:
     class Lying(turbidite.Run):
         states = 0
@@ -155,6 +163,53 @@ TEST_F(OutsideProgram, RanksOfAPythonAdapterTalkToEachOther) {
     for (const char* log : {"logs/grains.rank0.log", "logs/grains.rank1.log"})
         EXPECT_SAYS(text(run_folder() / log), "6 grains on 2 ranks");
     EXPECT_EQ(lines_of_history("run"), of_one);
+}
+
+TEST_F(OutsideProgram, AnErrorBeforeItJoinsEndsTheJobAtOnce) {
+    const Answer answer = run("typo");
+    EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "has no attribute 'run_grain'");
+    EXPECT_EQ(answer.err.find("limits.start"), std::string::npos) << answer.err;
+}
+
+TEST_F(OutsideProgram, AFolderThatIsNoneOfARunIsRefused) {
+    const Answer answer = run("elsewhere");
+    EXPECT_EQ(answer.code, 4) << answer.out << answer.err;
+    EXPECT_SAYS(answer.err, "\"/tmp\" is no run folder, it has no case.yaml");
+}
+
+TEST_F(OutsideProgram, StartedByHandItTouchesNothing) {
+    ASSERT_EQ(run("honest").code, 0);
+    scratch.write("run/logs/grains.log", "what it said");
+    for (const char* mpirun : {"", "mpirun --allow-run-as-root --oversubscribe -n 2 "}) {
+        const Answer answer = shell(
+            std::string("export PYTHONPATH=$PYTHONPATH:" TURBIDITE_BUILD_DIR "/lib/python; ") +
+            "timeout 60 " + mpirun + "/usr/bin/python3 mine.py honest run");
+        EXPECT_EQ(answer.code, 2) << answer.out << answer.err;
+        EXPECT_SAYS(answer.err, "there is no coupler in this job: programs that play the grains");
+    }
+    EXPECT_EQ(text(run_folder() / "logs/grains.log"), "what it said");
+    EXPECT_FALSE(fs::exists(run_folder() / "logs/grains.rank0.log"));
+}
+
+// Python reads a state on as many ranks as wrote it. The command that is printed then works.
+TEST_F(OutsideProgram, ValuesThatItCannotGoOnWithAreTakenBack) {
+    ASSERT_EQ(run("honest").code, 0);
+    const std::string before = text(run_folder() / "case.yaml");
+    const Answer refused = resume("--set time.end=0.6 --set grains.ranks=2");
+    EXPECT_EQ(refused.code, 4) << refused.out << refused.err;
+    EXPECT_SAYS(refused.err, "No window was played with time.end=0.6, grains.ranks=2");
+    EXPECT_EQ(text(run_folder() / "case.yaml"), before);
+    const Answer on = resume("--set time.end=0.6");
+    EXPECT_EQ(on.code, 0) << on.out << on.err;
+    EXPECT_SAYS(on.out, "goes on after window 50");
+    EXPECT_EQ(record().at("windows_done"), 60);
+}
+
+TEST_F(OutsideProgram, ANumberIsNoState) {
+    const Answer answer = run("zeros");
+    EXPECT_SAYS(answer.out + answer.err, "no checkpoint after window 10");
+    EXPECT_TRUE(sets().empty());
 }
 
 // Another user of the host may take the name of a doorbell first. It costs time, and is told.

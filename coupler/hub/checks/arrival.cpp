@@ -161,7 +161,17 @@ std::string fault_of(const FreeResponse& response) {
 const std::string no_fault_of_others =
     "All numbers that it had received are finite: its own log may say more, and a smaller "
     "time.step may help.";
+const std::string not_filled_in =
+    "A grain is answered as it came, with its new motion; see coupler/protocol/records.hpp.";
+
 const std::string against_protocol = "See coupler/protocol/records.hpp.";
+
+/// A motion that has run away, or a record that the program has not made as it should.
+const std::string& remedy_of(const std::string& fault, const std::string& of_wrong_records) {
+    const bool endless =
+        fault.find("not finite") != std::string::npos || fault.find("nan") != std::string::npos;
+    return endless ? no_fault_of_others : of_wrong_records;
+}
 
 }  // namespace
 
@@ -186,14 +196,15 @@ void Arrival::refuse_from(const std::string& who, const std::string& fault,
 void Arrival::check(int rank, const Motion& share) const {
     for (const GrainState& grain : share.grains)
         if (const std::string fault = fault_of(grain); !fault.empty())
-            refuse(rank, fmt::format("grain {}: {}", grain.id, fault), no_fault_of_others);
+            refuse(rank, fmt::format("grain {}: {}", grain.id, fault),
+                   remedy_of(fault, not_filled_in));
     if (const std::string fault = fault_of(share.report); !fault.empty())
         refuse(rank, "report: " + fault, against_protocol);
     if (!share.contacts) return;
     for (const ContactRecord& contact : *share.contacts)
         if (const std::string fault = fault_of(contact); !fault.empty())
             refuse(rank, fmt::format("a contact of grain {}: {}", contact.b, fault),
-                   no_fault_of_others);
+                   remedy_of(fault, against_protocol));
 }
 
 void Arrival::check(int rank, const Kicks& share) const {

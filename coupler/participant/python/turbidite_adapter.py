@@ -49,8 +49,18 @@ def _loaded():
 
 
 _library = _loaded()
-_library.turbidite_before_mpi_init()                        # which the import of mpi4py calls
-atexit.register(_library.turbidite_before_mpi_finalize)     # the first one registered is the last one called
+def _before_mpi_finalize():
+    if not _joins and 'TURBIDITE_MEMBER' in os.environ:
+        # All others wait for this program, and MPI_Finalize, which mpi4py calls next, for them.
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(1)
+    _library.turbidite_before_mpi_finalize()
+
+
+_joins = False                            # run_grains has been called
+_library.turbidite_before_mpi_init()      # which the import of mpi4py calls
+atexit.register(_before_mpi_finalize)     # the first one registered is the last one called
 from mpi4py import MPI
 
 
@@ -238,7 +248,7 @@ class _Calls:
         _answer(answer, self.adapter.apply_kick(_window(window), _array(kicks, count, KICK).copy()))
 
     def save(self, room):
-        state = bytes(self.adapter.save())
+        state = bytes(memoryview(self.adapter.save()))  # bytes(5) would be five zeros
         ctypes.memmove(_library.turbidite_room(room, len(state)), state, len(state))
 
     def restore(self, state, size):
@@ -308,5 +318,7 @@ def run_grains(adapter, run_folder):
     All processes of the job make exactly one split of the world, here: after it nothing collective may be done on
     MPI.COMM_WORLD. The adapter's own ranks, if there are several, communicate over `adapter.comm`.
     """
-    struct = _struct(adapter)
-    sys.exit(_library.turbidite_run_grains_sized(struct, ctypes.sizeof(struct), None, None, os.fsencode(run_folder)))
+    global _joins
+    struct, folder = _struct(adapter), os.fsencode(run_folder)
+    _joins = True
+    sys.exit(_library.turbidite_run_grains_sized(struct, ctypes.sizeof(struct), None, None, folder))

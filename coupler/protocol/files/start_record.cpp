@@ -82,9 +82,14 @@ std::optional<StartRecord> read_start_record(const std::filesystem::path& run, R
         *text = received_line(*text);
     record.pid = std::atol(pid.c_str());
     for (std::string line; std::getline(file, line);)
-        for (const StepName& entry : step_names)
-            // The last known step counts; unknown lines are those of other versions.
-            if (line == entry.name) record.step = entry.step;
+        for (const StepName& entry : step_names) {
+            // Unknown lines are those of other versions.
+            if (line != entry.name) continue;
+            if (entry.step == StartStep::end)
+                record.left = true;
+            else
+                record.step = entry.step;
+        }
     return record;
 }
 
@@ -96,10 +101,21 @@ std::vector<StartRecord> not_yet_at(StartStep step, const std::filesystem::path&
         for (int rank = 0; rank < ranks; ++rank)
             if (const auto record = read_start_record(run, role, rank);
                 // A rank without a record is not named: nothing is known of it.
-                record && record->step < step)
+                record && (step == StartStep::end ? !record->left : record->step < step))
                 late.push_back(*record);
     }
     return late;
+}
+
+std::vector<StartRecord> left_before(StartStep step, const std::filesystem::path& run,
+                                     const std::vector<Role>& roles, const Settings& settings) {
+    std::vector<StartRecord> records = not_yet_at(step, run, roles, settings);
+    std::erase_if(records, [](const StartRecord& record) { return !record.left; });
+    return records;
+}
+
+std::string left_text(const std::vector<StartRecord>& left) {
+    return who(left.front()) + " has left MPI (MPI_Finalize) without joining the run";
 }
 
 std::vector<std::string> hosts_of_started(const std::filesystem::path& run) {

@@ -28,7 +28,8 @@ struct StartRecord {
     long pid = 0;
     std::string program;
     std::string log;
-    StartStep step = StartStep::none;
+    StartStep step = StartStep::none;  ///< the last one before the end
+    bool left = false;                 ///< it has come to MPI_Finalize
 };
 
 /// turbidite-member: writes the record of the program that this process becomes, without a step,
@@ -45,12 +46,19 @@ std::optional<StartRecord> read_start_record(const std::filesystem::path& run, R
 std::vector<StartRecord> not_yet_at(StartStep step, const std::filesystem::path& run,
                                     const std::vector<Role>& roles, const Settings& settings);
 
+/// Those of them that have come to MPI_Finalize instead: they will never take it.
+std::vector<StartRecord> left_before(StartStep step, const std::filesystem::path& run,
+                                     const std::vector<Role>& roles, const Settings& settings);
+
 /// The hosts of all programs that have been started, one for each; empty before the first.
 std::vector<std::string> hosts_of_started(const std::filesystem::path& run);
 
 /// "nothing from grains rank 0 (program, host, pid, log) within limits.start = 120 s: it has not
 /// called MPI_Init".
 std::string late_start_text(StartStep step, const std::vector<StartRecord>& late, double limit);
+
+/// "grains rank 0 (program, host, pid, log) has left MPI (MPI_Finalize) without joining the run".
+std::string left_text(const std::vector<StartRecord>& left);
 
 /// "the run is over, but grains rank 0 (program, host, pid, log) has not ended within
 /// limits.stall_hard = 600 s and is killed"; mpirun if all of its programs have ended.

@@ -199,6 +199,12 @@ INSTANTIATE_TEST_SUITE_P(
                            "orientation is no unit quaternion (w, x, y, z): (0, 0, 0, 0)"}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// Nothing has run away: no smaller step makes a radius of 0 one.
+TEST_F(Distrust, AGrainThatWasNotFilledInIsNoMatterOfTheStep) {
+    grains_send(Kind::motion, [](Motion& m) { m.grains.front() = {}; });
+    expect_end(ExitCode::physics_refused, {"radius is 0", "A grain is answered as it came"});
+}
+
 TEST_F(Distrust, AReportWithANegativeCount) {
     grains_send(Kind::motion, [](Motion& m) { m.report.contacts = -1; });
     expect_end(ExitCode::physics_refused, {"report: number of contacts is -1"});

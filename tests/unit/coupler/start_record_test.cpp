@@ -72,6 +72,23 @@ TEST_F(StartRecords, NameTheRanksThatHaveNotTakenAStep) {
     EXPECT_EQ(late_at(StartStep::announcement).size(), 7u);
 }
 
+// MPI_Finalize of a program that has never joined: it will not come any more.
+TEST_F(StartRecords, NameThoseThatLeaveInsteadOfJoining) {
+    start(Role::fluid, 0,
+          {StartStep::mpi_init, StartStep::split, StartStep::announcement, StartStep::end});
+    start(Role::grains, 0, {StartStep::mpi_init, StartStep::end});
+    start(Role::grains, 1, {StartStep::mpi_init});
+    const auto left = [this](StartStep step) {
+        return left_before(step, scratch.path(), {Role::fluid, Role::grains}, settings);
+    };
+    EXPECT_TRUE(left(StartStep::mpi_init).empty());
+    ASSERT_EQ(left(StartStep::split).size(), 1u);
+    EXPECT_EQ(late_at(StartStep::split).size(), 2u);
+    EXPECT_EQ(left_text(left(StartStep::split)),
+              "grains rank 0 (/bin/code, host node07, pid 10, log logs/code.log) has left MPI "
+              "(MPI_Finalize) without joining the run");
+}
+
 TEST_F(StartRecords, NameThoseThatStayAfterTheEnd) {
     start(Role::fluid, 0, {StartStep::announcement, StartStep::end});
     start(Role::grains, 3, {StartStep::announcement});
