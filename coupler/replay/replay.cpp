@@ -140,11 +140,12 @@ class Replay {
         return message;
     }
 
-    Message receive(int peer) {
+    Message receive(int peer, const Message& then) {
         std::optional<Message> message = next(peer, order_.limit);
         if (!message)
-            throw Failure(ExitCode::stalled, "rank " + std::to_string(peer) +
-                                                 " has not answered within limits.stall_hard");
+            throw Failure(ExitCode::stalled,
+                          "it has not sent " + place_of(then, peer) +
+                              ", within limits.stall_hard = " + text_of(order_.limit) + " s");
         if (message->envelope.kind != Kind::failure) return std::move(*message);
         const auto verdict = decode<Verdict>(message->payload);
         throw Failure(
@@ -154,7 +155,7 @@ class Replay {
 
     void compare(int peer, const Message& then) {
         last_[static_cast<std::size_t>(peer)] = then.envelope;
-        const Message now = receive(peer);
+        const Message now = receive(peer, then);
         // Not the sequence: it follows from the kinds.
         if (now.envelope.kind != then.envelope.kind ||
             now.envelope.window != then.envelope.window ||

@@ -143,7 +143,9 @@ JobOutcome of_first_end(const RunFolder& folder, const FirstEnd& first,
     const bool known = std::find(ranks.begin(), ranks.end(), first.who) != ranks.end();
     const std::string rank = known ? first.who : "";
     const std::string phase = known ? phase_of(folder, rank) : "";
-    const bool begun = std::filesystem::exists(folder.history());
+    // A replay writes no history.
+    const bool replays = !ranks.empty() && ranks.front() == "replay";
+    const bool begun = replays || std::filesystem::exists(folder.history());
     const auto log = log_of(folder, rank);
     return {
         first.code,

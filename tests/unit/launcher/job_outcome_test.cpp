@@ -103,6 +103,11 @@ TEST_F(Outcome, TheFirstEndDecidesTheCode) {
     EXPECT_EQ(outcome.code, ExitCode::stalled);
     EXPECT_SAYS(outcome.error, "grains rank 1 gave up: the coupler is silent");
     EXPECT_SAYS(outcome.error, "the run had not begun");
+    // A replay, which has no history, is in the middle of one.
+    std::filesystem::remove(folder.record());
+    const JobOutcome again = settle_outcome(folder, {.status = 4}, {"replay", "grains rank 1"});
+    EXPECT_SAYS(again.error, "grains rank 1 gave up");
+    EXPECT_EQ(again.error.find("had not begun"), std::string::npos) << again.error;
 }
 
 // As scancel sends it.
