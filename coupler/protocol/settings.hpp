@@ -34,10 +34,11 @@
 ///     run.wall_motions      prescribed_motion.hpp
 ///     run.inflow_motions    prescribed_motion.hpp
 ///     run.grain_motions     prescribed_motion.hpp
-///     run.md_frequency      w of the springs k = m_r w^2 [1/s]; this and the next two are
+///     run.md_frequency      w of the springs k = m_r w^2 [1/s]; this and the next three are
 ///                           missing for rigid contacts
 ///     run.md_damping        zeta of their dashpots
 ///     run.md_substeps       sub-steps per window
+///     run.md_tangential_share  of the tangential springs and dashpots in the normal ones
 ///     run.slices            output.slices: axis (0 to 2) and place [m] of each; missing
 ///                           without any
 ///     run.probes            output.probes: x y x y ... [m], in space x y z; missing without

@@ -51,7 +51,8 @@ class Scene:
         times w^2, and a contact with a wall, which has no spring of its own, the disc's m w^2."""
         label = 'mass %r' % mass
         if label not in [material.label for material in O.materials]:
-            tangential = TANGENTIAL[3 if self.in_space else 2]
+            dry = TANGENTIAL[3 if self.in_space else 2]
+            tangential = float(self.settings.get('run.md_tangential_share', dry))  # with what springs move in a fluid
             spring, dashpot = mass * self.frequency**2, 2.0 * self.damping * mass * self.frequency
             O.materials.append(ViscElMat(
                 kn=spring, cn=dashpot, ks=tangential * spring, cs=tangential * dashpot,

@@ -5,12 +5,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_spec.hpp"
 #include "coupler/rigid/rotation.hpp"
 #include "launcher/case/fluid_cut.hpp"
+#include "launcher/case/grains/grain_abilities.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 #include "launcher/case/grains/materials.hpp"
 #include "launcher/case/grains/soft_contact.hpp"
@@ -57,6 +59,30 @@ double height_of(const Packing& grains) {
     return height;
 }
 
+/// 1/(1 + cM R^2/cI) of the grain for which it is smallest, at most that of dry grains, 1/3 of
+/// discs and 2/7 of spheres: an impulse moves the point of contact 1 + M R^2/I times as far along
+/// it as across. A sphere with a shift has less cI than cM; with the share of dry spheres its
+/// tangential springs would need more sub-steps than its normal ones
+/// (docs/decisions/molecular-dynamics.md).
+double tangential_share(const Settings& settings, const Packing& grains) {
+    if (!in_space(settings)) return 1.0 / 3.0;
+    double share = 2.0 / 7.0;
+    if (!settings.flag("fluid.enabled")) return share;
+    // Missing where every grain has its own.
+    const double common =
+        settings.has("grains.density_ratio") ? settings.real("grains.density_ratio") : 1.0;
+    for (const PlacedGrain& grain : grains) {
+        if (grain.prescribed) continue;
+        const double seen = seen_radius(settings, grain.radius);
+        const double ratio = grain.density.value_or(common);
+        // Over M and I: c = 1 - R_h^3/rho_r and 1 - R_h^5/rho_r, with I = 2/5 M R^2.
+        const double mass = 1.0 - std::pow(seen, 3) / ratio,
+                     inertia = 1.0 - std::pow(seen, 5) / ratio;
+        if (inertia > 0.0) share = std::min(share, 1.0 / (1.0 + 2.5 * mass / inertia));
+    }
+    return share;
+}
+
 /// The contact parameters and sub-steps of molecular dynamics.
 void set_soft_contact(Settings& settings, const Packing& grains) {
     if (grains_adapter(settings).contacts == Contacts::rigid) return;
@@ -64,6 +90,7 @@ void set_soft_contact(Settings& settings, const Packing& grains) {
     settings.set("run.md_frequency", contact.frequency);
     settings.set("run.md_damping", contact.damping);
     settings.set("run.md_substeps", contact.substeps);
+    settings.set("run.md_tangential_share", tangential_share(settings, grains));
 }
 
 /// How many layers of cells each rank of the fluid has.

@@ -102,14 +102,6 @@ std::optional<double> equal_height(const Settings& settings) {
     return rows ? std::optional(rows->equal_height()) : std::nullopt;
 }
 
-/// R_h/R = h + s/(cells per R) of a grain of this radius [D]; s in space only.
-double seen_radius(const Settings& settings, double radius) {
-    const double seen = settings.real("fluid.hydrodynamic_radius");
-    if (!in_space(settings)) return seen;
-    const double cells = settings.real("fluid.cells_per_diameter") * radius;
-    return seen + settings.real("fluid.surface_shift") / cells;
-}
-
 /// Of a grain, over the fluid's: its own, or grains.density_ratio. Where that has been refused it
 /// is not judged again.
 std::function<double(const PlacedGrain&)> density_of_grains(const Settings& settings) {
@@ -276,6 +268,13 @@ Objection too_short(const ShortestPeriod& shortest, const LawRange& range) {
 }
 
 }  // namespace
+
+double seen_radius(const Settings& settings, double radius) {
+    const double seen = settings.real("fluid.hydrodynamic_radius");
+    if (!in_space(settings)) return seen;
+    const double cells = settings.real("fluid.cells_per_diameter") * radius;
+    return seen + settings.real("fluid.surface_shift") / cells;
+}
 
 double displaced_volume(const Settings& settings, double radius) {
     return std::pow(seen_radius(settings, radius), in_space(settings) ? 3 : 2);

@@ -27,6 +27,9 @@ double least_density(const Settings& settings, double radius);
 /// Of the smallest grain by grains.radius and grains.size_ratio; those of a file may be smaller.
 double least_density(const Settings& settings);
 
+/// R_h/R = h + s/(cells per R) of a grain of this radius [D]; s in space only.
+double seen_radius(const Settings& settings, double radius);
+
 /// V(R_h)/V of a grain of this radius [D]: what the fluid sees of it.
 double displaced_volume(const Settings& settings, double radius);
 

@@ -167,6 +167,22 @@ TEST_F(SpaceCase, AFluidInSpaceSaysWhatItCannotDo) {
     EXPECT_EQ(with({"coupling.scheme=joint", "grains.density_ratio=1.2"}), "");
 }
 
+// 1/(1 + cM R^2/cI) with cM = 1 - 1.075^3/1.5 and cI = 1 - 1.075^5/1.5, of spheres of eight cells.
+TEST_F(SpaceCase, TangentialSpringsAreThoseOfWhatMovesInTheLiquid) {
+    const auto share = [this](std::vector<std::string> keys) {
+        keys.insert(keys.end(),
+                    {"grains.adapter=standalone-md", "coupling.scheme=split", "fluid.reynolds=10",
+                     "fluid.cells_per_diameter=8", "fluid.splitting=marchuk-yanenko"});
+        return load("", keys).settings.real("run.md_tangential_share");
+    };
+    EXPECT_EQ(share({}), 2.0 / 7.0);
+    EXPECT_NEAR(share({"fluid.enabled=true", "grains.density_ratio=1.5"}), 0.0908, 1e-4);
+    EXPECT_EQ(share({"fluid.enabled=true", "fluid.surface_shift=0"}), 2.0 / 7.0);
+    EXPECT_EQ(
+        share({"fluid.enabled=true", "fluid.surface_shift=0", "fluid.hydrodynamic_radius=0.9"}),
+        2.0 / 7.0);
+}
+
 // What the cells hold is up to a tenth less than what the sphere displaces.
 TEST_F(SpaceCase, ALightSphereIsHeavierThanItsCellsMayLack) {
     const auto said = [this](const std::string& density, const std::string& cells) {
