@@ -172,9 +172,14 @@ class DistrustGrains : public Distrust, public testing::WithParamInterface<Spoil
 
 TEST_P(DistrustGrains, IsToldAsTheFaultOfTheGrains) {
     grains_send(Kind::motion, [&](Motion& m) { GetParam().spoil(grain_100(m)); });
+    const std::string says = GetParam().says;
+    const bool endless =
+        says.find("not finite") != std::string::npos || says.find("nan") != std::string::npos;
     expect_end(ExitCode::physics_refused,
-               {"grains rank 0 (scripted, host ", "log a.log): grain 100: ", GetParam().says,
-                "in \"motion\" of window 3", "All numbers that it had received are finite"});
+               {"grains rank 0 (scripted, host ", "log a.log): grain 100: ", says,
+                "in \"motion\" of window 3",
+                endless ? "All numbers that it had received are finite"
+                        : "A grain is answered as it came"});
 }
 
 INSTANTIATE_TEST_SUITE_P(
