@@ -176,7 +176,7 @@ TEST_P(DistrustGrains, IsToldAsTheFaultOfTheGrains) {
     const bool endless =
         says.find("not finite") != std::string::npos || says.find("nan") != std::string::npos;
     expect_end(ExitCode::physics_refused,
-               {"grains rank 0 (scripted, host ", "log a.log): grain 100: ", says,
+               {"grains rank 0 (scripted, host ", "log a.log): grain 100: ", says.c_str(),
                 "in \"motion\" of window 3",
                 endless ? "All numbers that it had received are finite"
                         : "A grain is answered as it came"});
