@@ -75,8 +75,8 @@ struct Membership::State {
         : role(role_),
           mpi(launch.argc, launch.argv),
           local(own_communicator(role_, launch.communicator)) {
-        require_coupler(role,
-                        local);  // before a log is written: it might be that of a finished run
+        // Before a log is written: it might be that of a finished run.
+        require_coupler(role, local);
         PMPI_Comm_rank(local, &rank);
         PMPI_Comm_size(local, &ranks);
         run_folder = launch.run_folder;

@@ -135,8 +135,9 @@ def check_spans(members):
 
 def measure(members):
     shown = quantities_of(members)
+    scales = facts.differing_scales([run for member in members for run in member.runs])
     return Comparison(
-        members, facts.differing_scales([run for member in members for run in member.runs]), shown, parameters(members), [findings.wall_seconds(member.data) for member in members],
+        members, scales, shown, parameters(members), [findings.wall_seconds(member.data) for member in members],
         {m.name: {q.column: numbers(members[0], m, q.column) for q in shown} for m in members},
         {m.name: peaks.peaks(m) for m in members}, peaks.pairs(members),
         {m.name: member_surface(m) for m in members})

@@ -49,6 +49,8 @@ def _loaded():
 
 
 _library = _loaded()
+
+
 def _before_mpi_finalize():
     if not _joins and 'TURBIDITE_MEMBER' in os.environ:
         # All others wait for this program, and MPI_Finalize, which mpi4py calls next, for them.
