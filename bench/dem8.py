@@ -3,7 +3,8 @@
 """The benchmark of bulk solids of Dosta et al. (Comput. Phys. Commun. 296 (2024) 109066): counts of our runs beside those
 of other codes (bench/dem8_silo.csv), and the grains of the drum.
 
-    bench/dem8.py silo RUN              of configs/silo.yaml: spheres above the lip since the gate opened, and the flow
+    bench/dem8.py silo RUN [FROM TO]    of configs/silo.yaml: spheres above the lip since the gate opened, and the flow, ours
+                                        and theirs from FROM to TO [s] as well
     bench/dem8.py drum RUN              of configs/drum.yaml: M1 in two quarters of the drum
     bench/dem8.py drum-grains [SHARE]   prints the grains of a SHARE of the drum's depth (1/5) as CSV
 """
@@ -30,7 +31,7 @@ SPACING = 1.04      # over the diameter, along x and y
 UNEVEN = 0.015      # of the diameter, so that it is no lattice
 
 
-def silo(run):
+def silo(run, between=None):
     lip, opened, published = silo_marks(run)
     ours = [(time - opened, int((grains.centres[:, 1] > lip).sum())) for time, grains in outputs(run)
             if time >= opened - 1e-9]
@@ -41,9 +42,16 @@ def silo(run):
         print(f'{time:6.2f} {count:8d} {row.get(published + "_liggghts", ""):>9} {row.get(published + "_musen", ""):>8}')
     print('\nflow [1000/s] in each interval: ' + ' '.join(
         f'{(n - m) / (t - s) / -1000:.1f}' for (s, m), (t, n) in zip(ours, ours[1:])))
+    counts = {'ours': dict((round(time, 6), count) for time, count in ours)}
     for code in ('liggghts', 'musen'):
-        first, last = (int(rows[time][f'{published}_{code}']) for time in STEADY)
-        print(f'{code.upper()}, {STEADY[0]:g} to {STEADY[1]:g} s: {(first - last) / (STEADY[1] - STEADY[0]) / 1000:.2f}')
+        counts[code] = {time: int(row[f'{published}_{code}']) for time, row in rows.items() if row.get(f'{published}_{code}')}
+    for name, of_code in counts.items():
+        for first, last in ([between] if between else []) + [STEADY]:
+            times = [min(of_code, key=lambda time: abs(time - wanted)) for wanted in (first, last)] if of_code else []
+            if not times or any(abs(time - wanted) > 0.026 for time, wanted in zip(times, (first, last))):
+                continue  # not counted so far, or not at all
+            flow = (of_code[times[0]] - of_code[times[1]]) / (times[1] - times[0]) / 1000
+            print(f'{name}, {times[0]:.3g} to {times[1]:.3g} s: {flow:.2f}')
 
 
 def silo_marks(run):
@@ -104,8 +112,10 @@ def print_grains(share):
 
 
 def main(words):
-    if len(words) == 2 and words[0] in ('silo', 'drum'):
-        {'silo': silo, 'drum': drum}[words[0]](run_data.load_run(words[1]))
+    if words[:1] == ['silo'] and len(words) in (2, 4):
+        silo(run_data.load_run(words[1]), tuple(float(word) for word in words[2:]) or None)
+    elif words[:1] == ['drum'] and len(words) == 2:
+        drum(run_data.load_run(words[1]))
     elif words and words[0] == 'drum-grains' and len(words) <= 2:
         print_grains(float(words[1]) if len(words) == 2 else 0.2)
     else:

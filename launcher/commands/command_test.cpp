@@ -21,9 +21,14 @@ constexpr auto slow_labels = "system|physics|protocol";
 int test(bool unit_only) {
     const Programs programs = find_programs();
     require_checkout(programs, "tests");
-    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::string> line{"ctest",      "--test-dir",          programs.build(),
-                                  "--parallel", std::to_string(cores), "--output-on-failure"};
+    // One more than there are cores: a job whose programs start or are waited for keeps none busy.
+    const unsigned at_once = 1 + std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::string> line{"ctest",
+                                  "--test-dir",
+                                  programs.build(),
+                                  "--parallel",
+                                  std::to_string(at_once),
+                                  "--output-on-failure"};
     if (unit_only) line.insert(line.end(), {"-LE", slow_labels});
     // All jobs of the tests play on this machine: mpirun need not look for fast networks, which
     // takes a quarter of a second for each of them.

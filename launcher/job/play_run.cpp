@@ -7,9 +7,13 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "coupler/protocol/files/run_files.hpp"
 #include "coupler/protocol/files/whole_file.hpp"
+#include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/grains/packing/pouring.hpp"
 #include "launcher/commands/report_script.hpp"
+#include "launcher/job/folder/foam_warnings.hpp"
+#include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/job.hpp"
 #include "launcher/job/overdue.hpp"
 #include "launcher/job/terminal.hpp"
@@ -47,6 +51,28 @@ bool has_output(const RunFolder& folder) {
     return std::getline(history, header) && std::getline(history, row);
 }
 
+/// What OpenFOAM's own parts warned of since the job started, to the user and into run.json.
+void tell_foam_warnings(const RunFolder& folder, const Settings& settings) {
+    if (!has_openfoam(settings)) return;
+    const int ranks = static_cast<int>(settings.integer("fluid.ranks"));
+    const auto log = log_file(folder.root, Role::fluid, 0, ranks);
+    const std::string text =
+        foam_warning_text(foam_warnings(log), std::filesystem::relative(log, folder.root).string());
+    if (text.empty()) return;
+    fmt::print(stderr, "turbidite: warning: {}\n", text);
+    auto record = read_run_json(folder.record());
+    auto others = nlohmann::ordered_json::array();
+    for (const auto& one : record.value("warnings", others))
+        if (one.value("about", "") != "openfoam") others.push_back(one);  // of an earlier part
+    others.push_back({{"about", "openfoam"}, {"text", text}});
+    record["warnings"] = others;
+    try {
+        write_run_json(folder.record(), record);
+    } catch (const Failure& failure) {
+        fmt::print(stderr, "{}\n", failure.what());
+    }
+}
+
 }  // namespace
 
 PreparedRun prepare(const ResolvedCase& resolved, const RunOrder& order, const LaunchSite& site) {
@@ -79,6 +105,7 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
                                 .had_children = [&] { return played_here(folder); }});
     JobOutcome outcome = settle_outcome(folder, end, prepared.ranks);
     std::fflush(stdout);
+    tell_foam_warnings(folder, prepared.settings);
     const bool done = outcome.code == ExitCode::done;
     if (!done) fmt::print(stderr, "{}", for_stderr(outcome_text(folder, outcome)));
     const bool due = report_wanted() && has_output(folder);

@@ -19,9 +19,13 @@ class StockApplication : public ShellTest {
         return shell("export WM_PROJECT_DIR=${WM_PROJECT_DIR:-/usr/share/openfoam}; " + command);
     }
 
+    /// Of the box as it is written; a box that has its mesh already keeps it.
     void make_mesh() const {
+        const std::string box = text(scratch.path() / "system/blockMeshDict");
+        if (box == meshed_) return;
         const Answer mesh = foam("blockMesh");
         ASSERT_EQ(mesh.code, 0) << mesh.out << mesh.err;
+        meshed_ = box;
     }
 
     Answer run(const std::string& application) const {
@@ -83,6 +87,9 @@ class StockApplication : public ShellTest {
     static std::string solver_of(const std::string& field, const std::string& entries) {
         return "solvers { " + field + " { " + entries + " } }\nSIMPLE {}\n";
     }
+
+ private:
+    mutable std::string meshed_;  // the box whose mesh is in the folder
 };
 
 }  // namespace turbidite

@@ -3,6 +3,7 @@
 // OpenFOAM's function objects in a run (fluid.functions): what they see of a window, when, on any
 // number of ranks and after a resumption, and how a wrong one is refused.
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "tests/system/history_columns.hpp"
@@ -272,6 +273,22 @@ TEST_F(FunctionObjects, ThatCannotBeMadeEndTheRunByName) {
     scratch.write("run/fluid/system/functions", points("1 1 0.05"));
     EXPECT_EQ(turbidite("resume run").code, 0);
     EXPECT_EQ(written("run", "points/0/U").size(), 20u);
+}
+
+// A probe outside the mesh writes nothing, and OpenFOAM goes on.
+TEST_F(FunctionObjects, ThatFindNothingAreToldAtTheEnd) {
+    in_the_plane();
+    scratch.write("mine/all", points("1000 1 0.05"));
+    const Answer answer = turbidite("run case.yaml --out run");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    const std::string told =
+        "OpenFOAM warned once in logs/fluid.log: \"Did not find location (1000 1 0.05)";
+    EXPECT_SAYS(answer.err, "turbidite: warning: " + told);
+    const auto warnings =
+        nlohmann::json::parse(text(scratch.path() / "run/run.json")).at("warnings");
+    ASSERT_EQ(warnings.size(), 1u) << warnings;
+    EXPECT_EQ(warnings[0].at("about"), "openfoam");
+    EXPECT_SAYS(warnings[0].at("text").get<std::string>(), told);
 }
 
 TEST_F(FunctionObjects, FaultsOfTheFileAreFoundBeforeTheStart) {
