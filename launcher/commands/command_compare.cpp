@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "launcher/case/files/file_names.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/commands/report_script.hpp"
 
@@ -19,6 +20,15 @@ struct CompareOptions {
     std::string page = "compare.html";
     bool each = false;
 };
+
+void require_folder_of(const fs::path& page) {
+    const fs::path folder = fs::absolute(page).parent_path();
+    if (is_folder(folder)) return;
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("--out = {}: there is no folder {}\n  Make it, or name a file in "
+                              "another. Exit code 2.",
+                              page.string(), folder.string()));
+}
 
 // The numbers are written beside the page under the same base name, so the page must not have their
 // ending.
@@ -37,10 +47,11 @@ int compare(const CompareOptions& options) {
                       "turbidite compare needs at least two run folders\n  For one there is "
                       "turbidite report. Exit code 2.");
     require_page_name(options.page);
+    require_folder_of(options.page);
     std::vector<RunFolder> runs;
     for (const std::string& directory : options.directories) {
         require_run_folder(directory);
-        runs.push_back({fs::absolute(directory)});
+        runs.push_back({fs::weakly_canonical(directory)});
     }
     const fs::path page = fs::absolute(options.page);
     const ExitCode code = write_comparison(page, runs, options.each, find_programs());

@@ -13,8 +13,10 @@
 #include "launcher/case/forecast/run_cost.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/commands/report_script.hpp"
+#include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/folder/set_aside.hpp"
 #include "launcher/job/folder/shipped_cases.hpp"
+#include "launcher/job/launch_line.hpp"
 #include "launcher/job/play_run.hpp"
 #include "launcher/job/pour_grains.hpp"
 #include "launcher/job/resume_run.hpp"
@@ -203,6 +205,7 @@ ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan, c
         if (asked_to_stop(code)) return code;
         if (result == ExitCode::done) result = code;
         if (!outcome) continue;
+        if (outcome->signal != 0) return signal_code(outcome->signal);  // after its last window
         pace.take_in(run->part, std::chrono::duration<double>(Clock::now() - start).count());
     }
 }
@@ -211,7 +214,7 @@ const char* word_of(const PlannedRun& run, const fs::path& out) {
     if (RunLock::is_held(out / run.path())) return "running";
     switch (state_of(run, out)) {
         case RunState::missing:
-            return "missing";
+            return has_windows(out / run.path()) ? "changed" : "missing";
         case RunState::begun:
             return "begun";
         case RunState::done:
@@ -225,16 +228,47 @@ const char* word_of(const PlannedRun& run, const fs::path& out) {
 }
 
 void list(const std::vector<PlannedRun>& plan, const fs::path& out) {
+    bool changed = false;
     for (const PlannedRun& run : plan) {
-        fmt::print("{}", for_stdout(fmt::format("{:<8} {:>7}  {}\n", word_of(run, out),
-                                                rough_time(run.seconds), run.path())));
+        const std::string word = word_of(run, out);
+        changed = changed || word == "changed";
+        fmt::print("{}", for_stdout(fmt::format("{:<8} {:>7}  {}\n", word, rough_time(run.seconds),
+                                                run.path())));
     }
+    if (changed)
+        tell_on_stderr(
+            "changed: a run of another case is there; it is renamed to ...-old-1 before this one "
+            "is played");
 }
 
 /// Those of --quick are other runs, and go to another folder.
 fs::path folder_of(const Study& study, const StudyOptions& options) {
     if (!options.out.empty()) return fs::absolute(options.out);
     return fs::absolute(study.out.string() + (options.quick ? "-quick" : ""));
+}
+
+/// Of runs that are done and have none: it was interrupted, the disk was full.
+void draw_missing_reports(const std::vector<PlannedRun>& plan, const fs::path& out) {
+    if (!report_wanted()) return;
+    for (const PlannedRun& run : plan) {
+        const RunFolder folder{out / run.path()};
+        if (state_of(run, out) != RunState::done || fs::exists(folder.report())) continue;
+        fmt::print("{}", for_stdout("report of " + run.path() + "\n"));
+        write_report(folder, find_programs());
+    }
+}
+
+/// ", 1 failed (column/friction-0.3)"; empty if none has.
+std::string failed_text(const std::vector<PlannedRun>& plan, const fs::path& out) {
+    std::vector<std::string> names;
+    for (const PlannedRun& run : plan)
+        if (state_of(run, out) == RunState::failed) names.push_back(run.path());
+    if (names.empty()) return "";
+    const std::size_t shown = std::min<std::size_t>(names.size(), 3);
+    const std::string more = names.size() > shown ? ", ..." : "";
+    return fmt::format(", {} failed ({}{})", names.size(),
+                       fmt::join(names.begin(), names.begin() + static_cast<long>(shown), ", "),
+                       more);
 }
 
 /// Table and figures, by the last to end. False if they cannot be written.
@@ -251,8 +285,8 @@ bool conclude(const Study& study, const std::vector<PlannedRun>& plan, const fs:
     if (!write_study_results(out, find_programs())) return false;
     const std::size_t left = missing_runs(plan, out, again).size();
     const std::string text =
-        fmt::format("{} of {} runs done. Results in {}: study.html, study.csv{}.{}\n",
-                    plan.size() - left, plan.size(), out.string(),
+        fmt::format("{} of {} runs done{}. Results in {}: study.html, study.csv{}.{}\n",
+                    plan.size() - left, plan.size(), failed_text(plan, out), out.string(),
                     study.figures.empty() ? "" : fmt::format(", {}.md", study.figures),
                     left > 0 ? " The same line again runs what is missing." : "");
     fmt::print("{}", for_stdout(text));
@@ -260,40 +294,77 @@ bool conclude(const Study& study, const std::vector<PlannedRun>& plan, const fs:
 }
 
 /// What plays the same study from anywhere, without the flags that change no result.
-std::vector<std::string> words_of(const StudyOptions& options) {
+std::vector<std::string> words_of(const StudyOptions& options, const fs::path& out) {
     std::vector<std::string> words{"turbidite", "study", fs::absolute(options.file).string()};
     for (const std::string& text : options.overrides) words.insert(words.end(), {"--set", text});
-    if (!options.out.empty())
-        words.insert(words.end(), {"--out", fs::absolute(options.out).string()});
+    words.insert(words.end(), {"--out", out.string()});
     if (options.quick) words.push_back("--quick");
     return words;
 }
 
+/// So that the table of another study, or of other keys, is not taken for lost.
+void tell_of_another(const std::vector<std::string>& command, const fs::path& out) {
+    const auto before = read_run_json(out / "study.json").value("command", command);
+    const auto without_folder = [](std::vector<std::string> words) {
+        if (const auto at = std::find(words.begin(), words.end(), "--out"); at + 1 < words.end())
+            words.erase(at, at + 2);
+        return words;
+    };
+    if (without_folder(before) == without_folder(command)) return;
+    tell_on_stderr(fmt::format(
+        "{} has the table and figures of another study, which those of this one replace; its runs "
+        "stay where this one has none of their names. Its command: {}. With --out the two have "
+        "folders of their own",
+        out.string(), shell_line(before)));
+}
+
+/// Throws Failure (bad input) for a case, and for a folder that cannot be made.
+void require_study(const fs::path& file) {
+    if (!is_case(file)) return;
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("turbidite: {0} is a case, which is one run\n  A study names a case "
+                              "and the keys to sweep. Play the run with: turbidite run {0}",
+                              shell_line({file.string()})));
+}
+
+void make_folder(const fs::path& out) {
+    std::error_code error;
+    fs::create_directories(out, error);
+    if (error)
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("{} cannot be made: {}\n  It is to hold the folders of the runs. "
+                                  "Name another with --out. Exit code 2.",
+                                  out.string(), error.message()));
+}
+
 int run_study(const StudyOptions& options) {
+    require_study(options.file);
     Study study = read_study(options.file);
-    study.command = words_of(options);
     const std::vector<PlannedRun> plan = plan_study(study, options.overrides, options.quick);
     const fs::path out = folder_of(study, options);
+    study.command = words_of(options, out);
     const std::vector<const PlannedRun*> missing = missing_runs(plan, out, options.again);
     const std::string text =
-        fmt::format("{}: {} runs, {} of them done, folder {}{}\n", study.name, plan.size(),
-                    plan.size() - missing.size(), out.string(),
+        fmt::format("{}: {} {}, {} of them done, folder {}{}\n", study.name, plan.size(),
+                    plan.size() == 1 ? "run" : "runs", plan.size() - missing.size(), out.string(),
                     missing.empty() ? "" : ", to do: " + forecast_text(missing));
     fmt::print("{}", for_stdout(text));
     if (!options.again) tell_kept(plan, out);
+    tell_of_another(study.command, out);
     if (const std::string lack = lack_of_disk(predicted_disk(missing), out); !lack.empty())
         tell_on_stderr(lack);
     if (options.dry_run) {
         list(plan, out);
         return static_cast<int>(ExitCode::done);
     }
-    fs::create_directories(out);
+    make_folder(out);
     StudyTurns turns(plan, out, options.again);
     {
         const auto lock = turns.lock();
         write_study_record(study, plan, out);
     }
     const ExitCode code = play_missing(study, plan, out, turns);
+    if (!asked_to_stop(code)) draw_missing_reports(plan, out);
     std::fflush(nullptr);
     return conclude(study, plan, out, turns, options.again)
                ? static_cast<int>(code)

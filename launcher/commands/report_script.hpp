@@ -13,7 +13,11 @@ namespace turbidite {
 /// Throws Failure (bad_input) naming a directory that is not a run folder.
 void require_run_folder(const std::filesystem::path& directory);
 
-/// Runs launcher/report/report.py; false if it failed, with its messages on stderr.
+/// TURBIDITE_REPORT=off leaves it to `turbidite report`.
+bool report_wanted();
+
+/// Runs launcher/report/report.py; false if it failed, with its messages on stderr. SIGINT ends the
+/// script and this program, as in all that follow.
 bool write_report(const RunFolder& folder, const Programs& programs);
 
 /// Runs launcher/report/film.py; done, bad_input for a run without outputs, or participant_failed,

@@ -66,10 +66,6 @@ std::vector<std::filesystem::path> log_files(const RunFolder& folder) {
     return files;
 }
 
-ExitCode signal_code(int signal) {
-    return signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
-}
-
 std::string rank_name(const std::string& number, const std::vector<std::string>& ranks) {
     const auto rank = static_cast<std::size_t>(std::stoul(number));
     return rank < ranks.size() ? ranks[rank] : "world rank " + number;
@@ -211,6 +207,10 @@ std::string how_to_go_on(const RunFolder& folder, ExitCode code) {
 }
 
 }  // namespace
+
+ExitCode signal_code(int signal) {
+    return signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+}
 
 JobOutcome settle_outcome(const RunFolder& folder, const JobEnd& end,
                           const std::vector<std::string>& ranks) {

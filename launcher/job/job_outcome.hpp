@@ -20,7 +20,12 @@ struct JobOutcome {
     std::filesystem::path log = {};
     /// Its last_words(), where the folder will not be there to look at.
     std::string log_tail = {};
+    /// The signal that asked to stop; the job may have been done before it could. 0: none.
+    int signal = 0;
 };
+
+/// That of a job which a signal has stopped.
+ExitCode signal_code(int signal);
 
 /// The message is, in this order, that of the coupler's record, of the program that ended first
 /// (first_end, with the phase in which the coupler saw it), of the coupler's log, or of mpirun.

@@ -38,12 +38,6 @@ bool request_stop(const RunFolder& folder, int signal) {
     return true;
 }
 
-/// TURBIDITE_REPORT=off leaves it to `turbidite report`.
-bool report_wanted() {
-    const char* wish = std::getenv("TURBIDITE_REPORT");
-    return wish == nullptr || std::string(wish) != "off";
-}
-
 /// Something to report on: a row of the history.
 bool has_output(const RunFolder& folder) {
     std::ifstream history(folder.history());
@@ -104,9 +98,12 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
                                 .overdue = Overdue(folder, prepared.settings),
                                 .had_children = [&] { return played_here(folder); }});
     JobOutcome outcome = settle_outcome(folder, end, prepared.ranks);
+    outcome.signal = end.signal;
     std::fflush(stdout);
     tell_foam_warnings(folder, prepared.settings);
     const bool done = outcome.code == ExitCode::done;
+    std::error_code unread;
+    if (done) std::filesystem::remove(folder.stop(), unread);  // asked for after the last window
     if (!done) fmt::print(stderr, "{}", for_stderr(outcome_text(folder, outcome)));
     const bool due = report_wanted() && has_output(folder);
     const bool reported = !due || write_report(folder, programs);

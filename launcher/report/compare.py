@@ -145,7 +145,8 @@ def measure(members):
 
 def parameters(members):
     """(key, one value per member) of the keys in which the cases differ, and of their files."""
-    cases = [{**member.data.case, **{f'{what}, fingerprint': text for what, text in member.data.files().items()}}
+    cases = [{**member.data.case, **{f'{what}, fingerprint': text for what, text in member.data.files().items()},
+              **({'resumed': '; '.join(member.data.changes())} if member.data.changes() else {})}
              for member in members]
     keys = dict.fromkeys(key for case in cases for key in case)
     rows = [(key, [case.get(key, '') for case in cases]) for key in keys]
@@ -201,7 +202,7 @@ def described(comparison, member, wall):
             'folders': [str(run.folder.resolve()) for run in member.runs], 'seeds': member.seeds(),
             'wall_seconds': wall[0], 'wall_ratio': ratio(wall[0], first[0]),
             'window_seconds': wall[1], 'window_ratio': ratio(wall[1], first[1]),
-            'rest_time': findings.rest_time(member.data),
+            'rest_time': findings.mean_rest_time(member.runs),
             'penetration': findings.of_worst(member.runs, overlap),
             'unconverged_windows': findings.of_worst(member.runs, findings.unconverged_windows),
             'peak': asdict(peak) if peak else None,

@@ -101,7 +101,7 @@ def with_ratios(values):
 def overview(comparison):
     """Rows: a name, then one cell per member."""
     members, wall = comparison.members, comparison.wall
-    rest = [findings.rest_time(member.data) for member in members]
+    rest = [measured.spread([findings.rest_time(run) for run in member.runs]) for member in members]
     worst = lambda measure: [number(findings.of_worst(member.runs, measure)) for member in members]
     maxima = lambda name, column: worst(lambda run: findings.largest(run, column, name))
     wet = lambda name, column: [text if member.data.is_wet() else '' for text, member in
@@ -114,7 +114,7 @@ def overview(comparison):
         ['windows'] + [f'{member.data.history["step"][-1]:.0f}' for member in members],
         ['wall time [s]'] + with_ratios(totals),
         ['wall time of a window [s]'] + with_ratios(windows),
-        ['at rest from [t_c]'] + ['not at rest' if value is None else number(value) for value in rest],
+        ['at rest from [t_c]'] + [text or 'not at rest' for text in rest],
         ['largest overlap of any window [D]'] + maxima('penetration', 'max_penetration'),
         ['windows beyond contact.tolerance'] + worst(findings.unconverged_windows),
         ['largest defect of the grains\' momentum'] + maxima('grain_balance', 'grain_balance'),

@@ -194,3 +194,11 @@ def logarithmic(axes):
         axes.set_yscale('log')
         axes.relim()
         axes.autoscale_view()
+        at_least_a_decade(axes)
+
+
+def at_least_a_decade(axes):
+    """With less, ticks like 6 x 10^-4 are labelled too, which push the label of the axis out of the margin."""
+    low, high = axes.get_ylim()
+    if high < 10.0 * low:
+        axes.set_ylim(10.0**np.floor(np.log10(low)) / 1.2, 10.0**np.ceil(np.log10(high)) * 1.2)

@@ -29,6 +29,12 @@ def rest_time(run):
     return time[first] if first < len(time) else None
 
 
+def mean_rest_time(runs):
+    """Mean of rest_time over some runs [t_c]; None unless all come to rest."""
+    times = [rest_time(run) for run in runs]
+    return None if None in times else float(np.mean(times))
+
+
 def is_at_rest(run, time):
     """Whether an output [t_c] is of grains at rest."""
     since = rest_time(run)

@@ -118,6 +118,8 @@ MEASURED = [
     Measured('bed_height', 'Height of the bed', r'$H\,/\,D$', 'D', of_bed(0)),
     Measured('bed_concentration', 'Concentration of the bed', 'solid share', RELATIVE, of_bed(1)),
 ]
+UNTIL_REST = ('run_out', 'heap_height', 'heap_slope', 'bed_height', 'bed_concentration')  # final for grains at rest
+OF_PEAKS = ('peak_velocity', 'peak_time')
 DRAWN = ('peak_velocity', 'peak_time', 'relaxation_time', 'rest_time', 'end_front', 'end_height', 'run_out', 'slip_angle',
          'pore_change', 'wall_seconds')
 ANALYSIS = [one for one in MEASURED if one.name.startswith('relaxation') or MEASURED.index(one) >= [
@@ -129,14 +131,13 @@ def number(value):
 
 
 def spread(values):
-    """`mean (smallest to largest)` of those that are known, and of how many."""
+    """`mean (smallest to largest; 2 of 3 runs)` of those that are known, the last part where some are not."""
     known = [value for value in values if value is not None]
     if not known:
         return ''
-    mean = number(float(np.mean(known)))
-    if len(known) < len(values):
-        mean += f' of {len(known)}'
-    return mean if min(known) == max(known) else f'{mean} ({number(min(known))} to {number(max(known))})'
+    told = [] if min(known) == max(known) else [f'{number(min(known))} to {number(max(known))}']
+    told += [f'{len(known)} of {len(values)} runs'] if len(known) < len(values) else []
+    return number(float(np.mean(known))) + (f' ({"; ".join(told)})' if told else '')
 
 
 def titled(one):
@@ -147,5 +148,17 @@ def titled(one):
 def table(quantities, members):
     """A row per quantity that some run of the members has: its title with the unit, then a cell per member."""
     found = [(one, [[one.of(run) for run in member.runs] for member in members]) for one in quantities]
-    return [[titled(one)] + [spread(values) for values in cells]
+    return [[titled(one)] + [spread(values) + so_far(one, member.runs, values) for member, values in zip(members, cells)]
             for one, cells in found if any(value is not None for values in cells for value in values)]
+
+
+def so_far(one, runs, values):
+    """' so far' for what a longer run may still change: of grains that move at the end, a peak in the last row; else empty."""
+    return ' so far' if any(value is not None and may_change(one, run) for run, value in zip(runs, values)) else ''
+
+
+def may_change(one, run):
+    if one.name in UNTIL_REST:
+        return findings.rest_time(run) is None
+    found = peaks.peak(run) if one.name in OF_PEAKS else None
+    return found is not None and found.time >= run.history['time'][-1]

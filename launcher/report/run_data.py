@@ -18,6 +18,7 @@ import numpy as np
 
 GRAINS = 'grains'  # in RunData.fingerprints
 BARE_FROM = 0.9  # of the width: grains that reach so far at first fill the box
+CONTINUED = ('time.end', 'output.', 'limits.', 'fluid.ranks', 'grains.ranks')  # keys that change no window
 
 
 @dataclass
@@ -101,6 +102,17 @@ class RunData:
         words += ['--out', self.record['out']] if self.record.get('out') else []
         return shlex.join(words)
 
+    def changes(self):
+        """What was given when the run was resumed, as sentences: its case has the last values of these keys alone."""
+        given = [(part.get('from_window', 0), [one for one in part.get('overrides', []) if not one.startswith(CONTINUED)])
+                 for part in self.record.get('parts', [])[1:]]
+        return [f'from window {window} on with {", ".join(keys)}' for window, keys in given if keys]
+
+    def is_cut_off(self):
+        """run.json says that more windows are done than the history has rows of: the file has lost its end."""
+        done, rows = self.record.get('windows_done'), self.column('step')[1]
+        return self.record.get('status') == 'done' and done is not None and (not len(rows) or rows[-1] < done)
+
     def warnings(self, about=None):
         """Those of run.json, or those about one thing: 'solves', 'courant'."""
         return [warning for warning in self.record.get('warnings', []) if about in (None, warning['about'])]
@@ -124,6 +136,11 @@ def load_run(folder):
     run.case = _optional(run, 'case.yaml', read_resolved_case) or {}
     run.fingerprints = read_fingerprints(run.folder / 'case.yaml') if run.case else {}
     run.history = _optional(run, 'history.csv', read_history)
+    run.remarks += [f'The run was resumed {change}.' for change in run.changes()]
+    if run.history is not None and run.is_cut_off():
+        last = run.column('step')[1]
+        run.remarks.append(f'history.csv is not whole: it ends with window {last[-1] if len(last) else 0:.0f}, and run.json '
+                           f'says that {run.record["windows_done"]} are done.')
     if run.history is not None and len(run.history['time']) == 0:
         run.history = None
         run.remarks.append('history.csv has no row yet: no curves.')

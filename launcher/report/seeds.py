@@ -66,7 +66,7 @@ def case_without_seed(run):
     """A run without a readable case belongs to no group."""
     if not run.case:
         return id(run)
-    return without_seed(run.case), without_seed(run.files())
+    return without_seed(run.case), without_seed(run.files()), tuple(run.changes())
 
 
 def without_seed(values):
@@ -93,9 +93,12 @@ def name_of(group):
 
 
 def unique(names, groups):
-    """Unique names of the members: the paths as given where the folders' names are equal."""
-    if len(set(names)) < len(names):
-        names = [str(group[0].folder) for group in groups]
+    """Unique names of the members: with as many folders above as tell them apart where the folders' names are equal."""
+    paths = [group[0].folder.resolve() for group in groups]
+    for above in range(1, max(len(path.parts) for path in paths) if paths else 0):
+        if len(set(names)) == len(names):
+            break
+        names = ['/'.join(path.parts[-1 - above:]) for path in paths]
     if len(set(names)) < len(names):
         names = [f'{name} ({i + 1})' for i, name in enumerate(names)]
     return names

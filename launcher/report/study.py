@@ -102,8 +102,9 @@ def add_notes(page, runs, command):
     page.paragraph('Runs that differ in random.seed alone are taken together: means, and in brackets the smallest and the '
                    'largest. Numbers of every run are in study.csv.', 'note')
     known = [run.data for run in runs if run.data.case]
-    if known:
-        page.paragraph(facts.units_in_words(known[0]), 'note')
+    words = list(dict.fromkeys(facts.units_in_words(run) for run in known))
+    if len(words) == 1:
+        page.paragraph(words[0], 'note')
     if command:
         page.paragraph(f'Made by: {command}', 'note')
 
@@ -117,6 +118,8 @@ def add_part(page, part, runs):
         return
     if left_out := [run.entry['name'] for run in runs if not is_done(run) and run.data.history is not None]:
         page.paragraph(f'Left out, since they are not done: {", ".join(left_out)}.', 'remark')
+    if scales := facts.differing_scales([run.data for run in there]):
+        page.paragraph(scales, 'remark')
     by_folder = {run.data.folder: run for run in there}
     members = seeds.members([run.data for run in there],
                             swept=lambda data: seeds.without_seed(by_folder[data.folder].entry['values']))
@@ -128,7 +131,8 @@ def add_part(page, part, runs):
         shown = draw_against(key, members, values)
         if shown:
             page.panels([(figure, f'{part}-{key}-{name}') for figure, name in shown],
-                        f'Against {key}; bars from the smallest to the largest of the seeds.')
+                        f'Against {key}' + ('; bars from the smallest to the largest of the seeds.' if any(
+                            member.is_group() for member in members) else '.'))
     add_pictures(page, part, members, runs)
     comparison = compare.measure(members)
     page.legend(compare_page.legend_entries(members))
@@ -222,7 +226,8 @@ def draw_line(axes, i, label, points, measured):
     mean = np.array([np.mean(known) for _, known in found])
     below = mean - [min(known) for _, known in found]
     above = np.array([max(known) for _, known in found]) - mean
-    axes.errorbar(x, mean, yerr=[below, above], marker=curves.MARKERS[i % len(curves.MARKERS)], markersize=4, capsize=3,
+    spread = [below, above] if any(member.is_group() for _, member in points) else None
+    axes.errorbar(x, mean, yerr=spread, marker=curves.MARKERS[i % len(curves.MARKERS)], markersize=4, capsize=3,
                   color=f'#{compare_page.colour_of(i)}', linestyle=curves.dash(i), label=label or None, linewidth=1.2)
 
 

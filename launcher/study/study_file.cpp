@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "coupler/keys/case_error.hpp"
@@ -97,6 +100,37 @@ std::vector<std::string> overrides_of(const YAML::Node& node, const std::string&
     return result;
 }
 
+/// Keys may be nested or written with dots: the last list would count, and names say both.
+void refuse_swept_before(const YAML::Node& node, const std::string& key, const StudyPart& part,
+                         Complaints& complaints) {
+    for (const SweepAxis& axis : part.axes)
+        if (axis.key == key)
+            complaints.add(node, "sweep gives " + key + " twice", "A key has one list of values.",
+                           "Merge the two.");
+}
+
+std::optional<double> number_in(const std::string& text) {
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0') return std::nullopt;
+    return number;
+}
+
+/// 0.1 and 1e-1 would be two runs of one case.
+void refuse_equal_numbers(const YAML::Node& node, const SweepAxis& axis, Complaints& complaints) {
+    std::map<double, std::string> seen;
+    for (const SweepPoint& point : axis.points) {
+        const auto number = number_in(point.text);
+        if (!number) continue;
+        const auto [first, is_new] = seen.emplace(*number, point.text);
+        if (!is_new && first->second != point.text)  // equal texts are refused with the runs
+            complaints.add(node,
+                           fmt::format("sweep.{} has {} and {}, which are one value", axis.key,
+                                       first->second, point.text),
+                           "Every value of a sweep is a run.", "Keep one of the two.");
+    }
+}
+
 void add_swept_keys(const std::string& prefix, const YAML::Node& node, StudyPart& part,
                     Complaints& complaints) {
     for (const auto& item : node) {
@@ -114,6 +148,8 @@ void add_swept_keys(const std::string& prefix, const YAML::Node& node, StudyPart
         SweepAxis axis{key, {}};
         for (const YAML::Node& value : item.second)
             axis.points.push_back({value_text(value), {override_of(key, value)}});
+        refuse_swept_before(item.first, key, part, complaints);
+        refuse_equal_numbers(item.first, axis, complaints);
         part.axes.push_back(axis);
     }
 }
@@ -272,6 +308,19 @@ Study study_of(const YAML::Node& root, const fs::path& file) {
     return study;
 }
 
+/// At its top level. False when it cannot be read: reading it says what is wrong.
+bool has_one_of(const fs::path& file, const std::vector<std::string>& keys) {
+    if (!is_file(file)) return false;
+    try {
+        const YAML::Node root = YAML::LoadFile(file.string());
+        return root.IsMap() && std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
+                   return root[key].IsDefined();
+               });
+    } catch (const YAML::Exception&) {
+        return false;
+    }
+}
+
 }  // namespace
 
 bool is_folder_name(const std::string& name) {
@@ -283,13 +332,11 @@ bool is_folder_name(const std::string& name) {
 }
 
 bool is_study(const fs::path& file) {
-    if (!is_file(file)) return false;
-    try {
-        const YAML::Node root = YAML::LoadFile(file.string());
-        return root.IsMap() && (root["parts"].IsDefined() || root["case"].IsDefined());
-    } catch (const YAML::Exception&) {
-        return false;  // reading it as a case says what is wrong
-    }
+    return has_one_of(file, {"parts", "case"});
+}
+
+bool is_case(const fs::path& file) {
+    return has_one_of(file, {"domain", "grains"}) && !is_study(file);
 }
 
 Study read_study(const fs::path& file) {

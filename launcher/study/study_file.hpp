@@ -62,6 +62,9 @@ struct Study {
 /// The file has `parts` or a `case`: it is a study and not a case. False when it cannot be read.
 bool is_study(const std::filesystem::path& file);
 
+/// The file has the groups of a case, and is no study. False when it cannot be read.
+bool is_case(const std::filesystem::path& file);
+
 /// Whether a part or a run may be called so: it becomes a folder, which must lie in that of the
 /// study, and which OpenFOAM must be able to read.
 bool is_folder_name(const std::string& name);

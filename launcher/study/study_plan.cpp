@@ -166,11 +166,12 @@ void check_number(const Study& study, const Asked& asked) {
                                   "Sweep fewer values together, or write several studies.")});
 }
 
-void find_equal_names(const std::vector<PlannedRun>& runs, std::vector<CaseProblem>& problems) {
+void find_equal_names(const std::string& study, const std::vector<PlannedRun>& runs,
+                      std::vector<CaseProblem>& problems) {
     std::set<std::string> seen;
     for (const PlannedRun& run : runs)
         if (!seen.insert(run.path()).second)
-            problems.push_back(problem_at("study", 0, "has two runs " + run.path(),
+            problems.push_back(problem_at(study, 0, "has two runs " + run.path(),
                                           "Runs differ in a swept value, or in the name of their "
                                           "variant, in which all but letters, digits and . + - are "
                                           "written as _.",
@@ -199,7 +200,7 @@ std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::st
     for (const StudyPart& part : study.parts)
         if (!part.case_file.empty())
             for (PlannedRun& run : runs_of(part, asked)) plan.push_back(std::move(run));
-    find_equal_names(plan, problems);
+    find_equal_names(study.name, plan, problems);
     for (const PlannedRun& run : plan) check_name(run, problems);
     std::set<std::string> told;
     for (PlannedRun& run : plan) {

@@ -161,6 +161,36 @@ TEST_F(StudyRuns, IsContinuedAfterAnInterruption) {
     EXPECT_SAYS(rest.out, "3 of 3 runs done");
 }
 
+// Its last window is over before the run could be stopped: it is done, and the study stops.
+TEST_F(StudyRuns, IsStoppedByASignalAfterTheLastWindowOfARun) {
+    const Answer stopped =
+        shell(std::string(TURBIDITE_PROGRAM) +
+              " study frictions.yaml --out s & job=$!; until grep -q '\"status\": \"done\"' "
+              "s/frictions/friction-0/run.json; do sleep 0.02; done 2> /dev/null; kill -INT $job; "
+              "wait $job");
+    EXPECT_EQ(stopped.code, 130) << stopped.out << stopped.err;
+    EXPECT_EQ(stopped.out.find("[3/3]"), std::string::npos) << stopped.out;
+    EXPECT_FALSE(fs::exists(scratch.path() / "s/frictions/friction-0/STOP"));
+}
+
+TEST_F(StudyRuns, ARunWhoseReportWasInterruptedGetsItNextTime) {
+    scratch.write("frictions.yaml", "{case: column.yaml, sweep: {contact.friction: [0.3]}}");
+    const std::string with_reports =
+        "export TURBIDITE_REPORT=on; " + std::string(TURBIDITE_PROGRAM);
+    const Answer stopped = shell(with_reports +
+                                 " study frictions.yaml --out s & job=$!; until pgrep -P $job "
+                                 "python3; do sleep 0.1; done > /dev/null; sleep 0.5; "
+                                 "kill -INT $job; wait $job");
+    EXPECT_EQ(stopped.code, 130) << stopped.out << stopped.err;
+    EXPECT_SAYS(stopped.err, "Stopped. turbidite report ");
+    EXPECT_EQ(stopped.err.find("Traceback"), std::string::npos) << stopped.err;
+    EXPECT_FALSE(fs::exists(scratch.path() / "s/frictions/friction-0.3/report.html"));
+    const Answer rest = shell(with_reports + " study frictions.yaml --out s");
+    EXPECT_EQ(rest.code, 0) << rest.err;
+    EXPECT_SAYS(rest.out, "report of frictions/friction-0.3\n");
+    EXPECT_TRUE(fs::exists(scratch.path() / "s/frictions/friction-0.3/report.html"));
+}
+
 /// The window of the newest checkpoint of a run, 0 without any. A set stays for two checkpoints
 /// only, less than a moment of a machine that does other work.
 int last_checkpoint(const fs::path& run) {
@@ -365,11 +395,12 @@ TEST_F(StudyRuns, TwoAtOnceShareTheRuns) {
     EXPECT_EQ(column("status"), std::vector<std::string>(5, "done"));
 }
 
-// The second process comes to the end of the list after the run has failed in the first.
+// The second process comes to the end of the list after the run has failed in the first. Before
+// that run there is another one, so that both have begun when it fails.
 TEST_F(StudyRuns, ARunThatFailsIsPlayedByOneOfTwo) {
     scratch.write("frictions.yaml",
-                  "{case: column.yaml, variants: {coarse: {time.step: 0.5, time.end: 5, "
-                  "limits.penetration: 1e-9}, a: {}, b: {}, c: {}}, set: {time.end: 2, time.step: "
+                  "{case: column.yaml, variants: {a: {}, coarse: {time.step: 0.5, time.end: 5, "
+                  "limits.penetration: 1e-9}, b: {}, c: {}}, set: {time.end: 2, time.step: "
                   "0.002}}");
     const std::string line =
         "timeout 100 " + std::string(TURBIDITE_PROGRAM) + " study frictions.yaml --out s";
@@ -400,6 +431,27 @@ TEST_F(StudyRuns, SaysBeforehandThatTheDiskIsTooSmall) {
     EXPECT_EQ(none.code, 0);
     EXPECT_SAYS(none.err, " GB of files are to come, ");
     EXPECT_SAYS(none.err, " are free in " + scratch.path().string());
+}
+
+TEST_F(StudyRuns, AnotherStudyInTheFolderIsTold) {
+    scratch.write("frictions.yaml",
+                  "{case: column.yaml, set: {time.end: 0.1}, sweep: {contact.friction: [0.3]}}");
+    ASSERT_EQ(study("").code, 0);
+    EXPECT_EQ(study("--dry-run").err, "");
+    fs::copy_file(scratch.path() / "frictions.yaml", scratch.path() / "others.yaml");
+    const std::string others = std::string(TURBIDITE_PROGRAM) + " study others.yaml --out s";
+    const Answer told = shell(others + " --dry-run");
+    EXPECT_SAYS(told.err, "has the table and figures of another study");
+    EXPECT_SAYS(told.err, "frictions.yaml --out");
+    EXPECT_SAYS(study("--dry-run --set time.end=0.2").out, "changed ");
+    EXPECT_SAYS(study("--dry-run --set time.end=0.2").err, "is renamed to ...-old-1");
+    const Answer a_case = shell(std::string(TURBIDITE_PROGRAM) + " study column.yaml");
+    EXPECT_EQ(a_case.code, 2);
+    EXPECT_SAYS(a_case.err, "column.yaml is a case, which is one run");
+    const Answer nowhere =
+        shell(std::string(TURBIDITE_PROGRAM) + " study frictions.yaml --out /proc/nowhere");
+    EXPECT_EQ(nowhere.code, 2);
+    EXPECT_SAYS(nowhere.err, "/proc/nowhere cannot be made");
 }
 
 TEST_F(StudyRuns, ADryRunListsTheRuns) {

@@ -58,7 +58,7 @@ def relaxation(run):
     found.lowest, found.highest = min(times), max(times)
     # The last row may come sooner than the others: less than a row behind the fit, nothing can be fitted.
     found.bound = found.end > time[-1] - (1.0 - 1e-9) * float(time[1] - time[0])
-    return found
+    return None if found.bound and found.time <= 0.0 else found  # later than the start tells nothing
 
 
 def steepest(time, velocity, length, near=None):

@@ -6,7 +6,7 @@ import re
 GREEK = {'rho': 'ρ', 'phi': 'φ', 'mu': 'μ', 'nu': 'ν', 'eta': 'η', 'sigma': 'σ'}
 SUBSCRIPTED = re.compile(r'(?<![\w.])(rho|ρ|u|t|m|R|F|J|x|V|σ)_(c|s|f|h|0|xx|yy|xy|relax)(?![^\W²³]|\.\w)')
 POWER = re.compile(r'(?<![\w.])(D|u|u<sub>c</sub>)\^(\d)')
-TENS = re.compile(r'(?<![\w.])(-?\d+(?:\.\d+)?)e([+-]?)0*(\d+)(?![\w.]*\w)')
+TENS = re.compile(r'(?<![\w.])(?<![\w.]-)(-?\d+(?:\.\d+)?)e([+-]?)0*(\d+)(?![\w.]*\w)')
 MEAN = re.compile(r'&lt;(\|?u(?:_[xy])?\|?|[xy])&gt;')
 MATHTEXT = {r'\langle': '⟨', r'\rangle': '⟩', r'\,': ' ', r'\times': '×', r'\degree': '°', r'\Sigma': 'Σ',
             r'\max': 'max', r'\mathrm': '', r'\phi': 'φ', r'\mu': 'μ', r'\rho': 'ρ', r'\sigma': 'σ', r'\delta': 'δ',

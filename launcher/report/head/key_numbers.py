@@ -17,7 +17,8 @@ def rows(run):
                 if not there for name in names]
     names = [name for name in SHOWN if name not in left_out]
     found = [(one, one.of(run)) for one in (by_name[name] for name in names)]
-    return [(one.title, with_unit(one, value)) for one, value in found if value is not None]
+    return [(one.title, with_unit(one, value) + measured.so_far(one, [run], [value])) for one, value in found
+            if value is not None]
 
 
 def is_heap(run):

@@ -20,7 +20,7 @@ class Check:
 
 def checks(run):
     """In the order of the page; without those that the run has no number for."""
-    found = [momentum(run), overlap(run), solves(run), courant(run), grains_there(run), rest(run)]
+    found = [whole(run), momentum(run), overlap(run), solves(run), courant(run), grains_there(run), rest(run)]
     return [check for check in found if check is not None]
 
 
@@ -50,6 +50,13 @@ def together(run, found):
     if scope is None or not any(check.css == HOLDS for check in found):
         return []
     return [f'Every check holds{scope if findings.covers_all(run) else " as far as the rows tell"}.']
+
+
+def whole(run):
+    if run.history is None or not run.is_cut_off():
+        return None
+    return Check('the history', f'history.csv has lost its end: its last row is at t = {run.history["time"][-1]:.4g} t_c, and '
+                 f'all {run.record["windows_done"]} windows are done.', DOUBT)
 
 
 def momentum(run):

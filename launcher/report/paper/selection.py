@@ -60,7 +60,7 @@ class PaperRuns:
 
 
 def is_done(run):
-    return run.entry['status'] == 'done' and run.data.history is not None
+    return run.entry['status'] == 'done' and run.data.history is not None and not run.data.is_cut_off()
 
 
 def condition(run):

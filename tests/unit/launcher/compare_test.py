@@ -147,6 +147,31 @@ class Compare(RunFolderTest):
         self.assertIn('The cases are the same', (self.folder / 'page.html').read_text())
         self.assertEqual(len({run['name'] for run in self.result()['runs']}), 2)
 
+    def test_equal_names_have_the_folders_that_tell_them_apart(self):
+        for study in ('first', 'second'):
+            self.write_run(f'{study}/part/one', 1.0)
+        self.assertEqual(self.run_it('first/part/one', 'second/../second/part/one'), (0, ''))
+        self.assertEqual([run['name'] for run in self.result()['runs']], ['first/part/one', 'second/part/one'])
+
+    def test_what_a_resumption_changed_is_a_difference(self):
+        self.write_run('one', 1.0)
+        self.write_run('two', 1.0)
+        self.write('two/run.json', json.dumps({'status': 'done', 'parts': [
+            {'from_window': 0}, {'from_window': 20, 'overrides': ['contact.friction=0.5']}]}))
+        self.assertEqual(self.run_it('one', 'two'), (0, ''))
+        self.assertEqual(self.result()['parameters'], {'resumed': ['', 'from window 20 on with contact.friction=0.5']})
+
+    def test_rest_of_a_group_is_that_of_its_runs(self):
+        speeds = {'seed-1': (0, 1, 0, 0), 'seed-2': (0, 1, 1, 0), 'seed-3': (0, 1, 1, 1)}
+        for name, values in speeds.items():
+            self.write_run(name, 1.0, case=CASE + f'random:\n  seed: {name[-1]}\n')
+            self.write(f'{name}/history.csv', 'step,time,mean_speed\n' + ''.join(
+                f'{10 * t},{t},{value}\n' for t, value in enumerate(values)))
+        self.write_run('other', 1.0, case=CASE.replace('size: [4, 6]', 'size: [8, 6]'))
+        self.assertEqual(self.run_it(*speeds, 'other'), (0, ''))
+        self.assertIsNone(self.result()['runs'][0]['rest_time'])
+        self.assertIn('2.5 (2 to 3; 2 of 3 runs)', (self.folder / 'page.html').read_text())
+
     def test_a_quantity_that_one_run_lacks(self):
         self.write_run('one', 1.0)
         self.write_run('dry', 1.0)

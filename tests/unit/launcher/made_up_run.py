@@ -80,7 +80,7 @@ class RunFolderTest(unittest.TestCase):
         self.write('case.yaml', CASE)
         self.write('run.json', json.dumps({
             'case': 'made-up', 'status': 'done', 'exit_code': 0, 'error': '', 'D': 1, 'u_c': 1,
-            't_c': 1, 'g': 1, 'reynolds': 36, 'grains': 2, 'windows': 20, 'windows_done': 20}))
+            't_c': 1, 'g': 1, 'reynolds': 36, 'grains': 2, 'windows': 10, 'windows_done': 10}))
         self.write('history.csv', 'step,time,mean_velocity_y,mean_speed,mean_position_y,max_penetration,'
                    'contact_residual,wall_step,wall_fluid,wall_grains\n'
                    '0,0,0,0,3,,,,,\n10,1,-0.2,0.2,2.9,0,1e-4,0.1,0.06,0.01\n')

@@ -23,11 +23,13 @@ class Typeset(unittest.TestCase):
         for plain, set_ in (('1 u_c at t = 2 t_c.', '1 u<sub>c</sub> at t = 2 t<sub>c</sub>.'),
                             ('4 rho_s g D^2', '4 ρ<sub>s</sub> g D<sup>2</sup>'), ('|<u>|', '|⟨u⟩|'),
                             ('<u_x>', '⟨u<sub>x</sub>⟩'), ('2.6e-05 D', '2.6·10<sup>−5</sup> D'), ('a < b', 'a &lt; b'),
-                            ('closes to 1e-10.', 'closes to 1·10<sup>−10</sup>.')):
+                            ('closes to 1e-10.', 'closes to 1·10<sup>−10</sup>.'),
+                            ('from -1e-9 to 2', 'from -1·10<sup>−9</sup> to 2')):
             self.assertEqual(typeset(plain), set_)
 
     def test_names_stay(self):
-        for name in ('mean_velocity_x', 'u_c.txt', 'pictures/rho_s.png', 'case1e5b', 'contact.tolerance'):
+        for name in ('mean_velocity_x', 'u_c.txt', 'pictures/rho_s.png', 'case1e5b', 'contact.tolerance', 'penetration-1e-9',
+                     'part/penetration-1e-9-friction-0.3'):
             self.assertEqual(typeset(name), name)
 
 

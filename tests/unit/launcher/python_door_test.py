@@ -372,6 +372,10 @@ class Play(Door):
             'run', 'a.yaml', '--set', 'domain.size=[4, 6]', '--set', 'fluid.enabled=true', '--set', 'grains.shape="disc"',
             '--set', 'time.step=0.1', '--out', str(self.out)]))
 
+    def test_an_older_run_makes_way_if_it_may(self):
+        turbidite.run('a.yaml', out=self.out, force=True)
+        self.assertEqual((self.folder / 'told').read_text(), repr(['run', 'a.yaml', '--out', str(self.out), '--force']))
+
     def test_a_failure_has_message_and_code(self):
         with self.assertRaises(turbidite.RunFailed) as caught:
             turbidite.run('a.yaml', set={'grains.count': 3}, out=self.out)

@@ -79,6 +79,31 @@ class Page(RunFolderTest):
         rows = (self.folder / 'study.csv').read_text().splitlines()
         self.assertEqual([row.split(',')[4] for row in rows[1:]], ['done', 'interrupted', 'done', 'failed'])
 
+    def test_a_run_whose_history_has_lost_its_end_is_in_no_mean(self):
+        self.write_study()
+        folder = 'sweep/friction-0.1-seed-2'
+        self.write(f'{folder}/run.json', json.dumps({'status': 'done', 'windows_done': 30}))
+        page = self.page()
+        self.assertIn('Peak of the mean velocity [u<sub>c</sub>]</td><td>1.1</td><td>1.3</td>', page)
+        self.assertIn(f'{folder}: history.csv is not whole: it ends with window 20, and run.json says that 30 are done.', page)
+
+    def test_what_a_longer_run_may_change_is_so_far(self):
+        self.write_study()
+        self.write('sweep/friction-0.3-seed-1/history.csv', 'step,time,mean_velocity_norm\n0,0,0\n10,1,0.5\n20,2,1.3\n')
+        self.assertIn('Peak of the mean velocity [u<sub>c</sub>]</td><td>1.6 (1.1 to 2.1)</td><td>1.3 so far</td>', self.page())
+
+    def test_other_scales_are_told(self):
+        self.write_study()
+        self.assertNotIn('scales of these runs differ', self.page())
+        self.write('sweep/friction-0.3-seed-1/run.json', json.dumps({'status': 'done', 'u_c': 1, 'g': 2}))
+        self.assertIn('The scales of these runs differ', self.page())
+
+    def test_what_a_resumption_changed_is_told(self):
+        self.write_study()
+        self.write('sweep/friction-0.3-seed-1/run.json', json.dumps({'status': 'done', 'parts': [
+            {'from_window': 0}, {'from_window': 5, 'overrides': ['contact.tolerance=0.1', 'time.end=2']}]}))
+        self.assertIn('sweep/friction-0.3-seed-1: The run was resumed from window 5 on with contact.tolerance=0.1.', self.page())
+
     def test_variants_are_not_averaged_though_their_cases_name_the_same_copies(self):
         self.write_study()
         record = json.loads((self.folder / 'study.json').read_text())
@@ -101,6 +126,15 @@ class Labels(unittest.TestCase):
                                                            'restitution-0.25-seed-1'), (figure, 'end'))
         width = axes.title.get_window_extent(figure.canvas.get_renderer()).width
         self.assertLess(width, figure.get_figwidth() * figure.dpi)
+        plt.close(figure)
+
+    def test_ticks_of_less_than_a_decade_do_not_push_the_label_out(self):
+        figure, axes = curves.panel('title', 'x', 'scaled natural map')
+        axes.plot([0, 1], [2e-4, 7e-4])
+        curves.logarithmic(axes)
+        figure.canvas.draw()
+        self.assertGreater(axes.yaxis.label.get_window_extent().x0, 0.0)
+        self.assertTrue(axes.get_ylim()[0] < 2e-4 and axes.get_ylim()[1] > 7e-4)
         plt.close(figure)
 
     def test_wide_numbers_do_not_push_the_label_out(self):

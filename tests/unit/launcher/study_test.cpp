@@ -313,6 +313,15 @@ TEST_F(StudyTest, QuickIsRefusedWhereThereIsNone) {
     }
 }
 
+TEST_F(StudyTest, AKeyIsSweptOnce) {
+    EXPECT_SAYS(refusal("case: column.yaml\nsweep:\n  contact: {friction: [0.1, 0.2]}\n"
+                        "  contact.friction: [0.3]"),
+                "study.yaml line 4: sweep gives contact.friction twice");
+    EXPECT_SAYS(refusal("{case: column.yaml, sweep: {contact.friction: [0.1, 0.2, 1e-1]}}"),
+                "sweep.contact.friction has 0.1 and 1e-1, which are one value");
+    EXPECT_EQ(plan("{case: column.yaml, sweep: {contact.friction: [0.1, 0.2]}}").size(), 2u);
+}
+
 TEST_F(StudyTest, AValueListedTwiceIsRefused) {
     EXPECT_SAYS(refusal("{case: column.yaml, sweep: {random.seed: [1, 2, 1]}}"),
                 "two runs study/seed-1");

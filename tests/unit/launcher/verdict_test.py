@@ -142,7 +142,7 @@ class Commands(unittest.TestCase):
 class KeyNumbers(unittest.TestCase):
     def test_have_units(self):
         run = run_with(history={'step': [0, 10], 'time': [0, 1], 'mean_velocity_norm': [0, 0.5], 'front_x': [3, 4]})
-        self.assertEqual(key_numbers.rows(run), [('Peak of the mean velocity', '0.5 u_c'), ('Time of the peak', '1 t_c')])
+        self.assertEqual(key_numbers.rows(run), [('Peak of the mean velocity', '0.5 u_c so far'), ('Time of the peak', '1 t_c so far')])
 
     def test_the_front_is_told_of_a_collapse(self):
         run = run_with(history={'step': [0, 10], 'time': [0, 1], 'mean_velocity_norm': [0, 0], 'front_x': [3, 4]},
