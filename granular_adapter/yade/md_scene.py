@@ -108,7 +108,9 @@ class Scene:
     def step(self):
         """One sub-step. O.run(n, wait=True) would test only every 40 ms whether it has finished."""
         self.script.check_step()
+        before = O.iter
         O.step()
+        self.script.check_one_step(before)
 
     def contacts(self):
         """Number of contacts with a force."""

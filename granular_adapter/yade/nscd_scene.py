@@ -4,7 +4,10 @@
 Bodies, walls, materials and engines are YADE's own and available to recorders and plots; contacts and motion are
 computed by the contact engine, which a PyRunner calls once per window.
 """
+import json
 import math
+import os
+import sys
 
 import domain_sides
 import turbidite_contact
@@ -58,6 +61,7 @@ class Scene:
         self.script = None       # users_script
         self.participant = None  # turbidite_yade.Participant, when windows are played
         self.engine_error = None
+        self.over = False        # the run, for this program
 
     def create(self, settings, grains):
         """Adds the walls and one body per grain; returns states and turns (turn.hpp) in the order of `grains`."""
@@ -121,8 +125,12 @@ class Scene:
         global _playing
         _playing = self
         self.store = Store(self.case)
+        windows = windows_before(sys.argv[1])
+        begin_at(windows)
         O.engines = [PyRunner(command=WINDOW, iterPeriod=1, label='turbidite'), self.store.engine]
         self.script = users_script.complete_scene(self.case)
+        if windows > 0:
+            go_on_with_periods(windows)
 
     def begin_window(self, index, moved):
         if self.engine_error is not None:
@@ -134,13 +142,17 @@ class Scene:
         self.participant = participant
         try:
             O.run(wait=True)
+            if not self.over:
+                self.engine_error = self.script.stopped()
         except RuntimeError as error:
             self.engine_error = error
+        if self.engine_error is not None:
             participant.step()
 
     def play_window(self):
         """Runs one window and stores the contact impulses, so that O.save after it includes them."""
         if not self.participant.step():
+            self.over = True
             # Not O.pause(): O.run would return while engines after this one still work on the step, and YADE's exit,
             # which waits for its thread without releasing Python's lock, would wait for ever.
             O.stopAtIter = O.iter + 1
@@ -151,6 +163,33 @@ class Scene:
         self.script.expect_fewer(bodies)
         for body in bodies:
             O.bodies.erase(body)
+
+
+def windows_before(run_folder):
+    """Windows that earlier parts of a resumed run have done."""
+    file = os.path.join(run_folder, 'run.json')
+    if not os.path.exists(file):
+        return 0
+    with open(file) as record:
+        parts = json.load(record).get('parts') or [{}]
+    return parts[-1].get('from_window', 0)
+
+
+def begin_at(windows):
+    """O.iter counts windows, also of a run that was resumed: recorders name files by it, and tell the time."""
+    if windows > 0:
+        O._sceneObj.updateAttrs({'iter': windows, 'time': windows * O.dt})
+
+
+def go_on_with_periods(windows):
+    """Engines are due when they would be in a run that was not interrupted. As at its start, the first step is empty: an
+    engine that has not been looked at (nDone = 0) would count its period from there."""
+    for engine in O.engines:
+        if getattr(engine, 'iterPeriod', 0) > 0:
+            engine.updateAttrs({'iterLast': windows - windows % engine.iterPeriod, 'nDone': 1})
+        if getattr(engine, 'virtPeriod', 0) > 0:
+            periods = math.floor(windows * O.dt / engine.virtPeriod * (1.0 + 1e-12))
+            engine.updateAttrs({'virtLast': periods * engine.virtPeriod, 'nDone': 1})
 
 
 def walls_of_the_engine(case):

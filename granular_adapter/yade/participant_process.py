@@ -4,6 +4,7 @@
 Must be imported before anything else. YADE must be started with `-x`: otherwise a Python error opens a prompt, and
 the job waits for ever.
 """
+import builtins
 import os
 import sys
 import traceback
@@ -34,12 +35,29 @@ def abort():
     mpy.MPI.COMM_WORLD.Abort(4)
 
 
+EXITS = ((sys, 'exit'), (builtins, 'exit'), (builtins, 'quit'))
+
+
+def replace_exits(exits):
+    """Sets sys.exit, exit and quit, and returns those before. An exit from within a step of YADE waits for ever."""
+    before = [getattr(module, name) for module, name in EXITS]
+    for (module, name), exit in zip(EXITS, exits):
+        setattr(module, name, exit)
+    return before
+
+
+def refused_exit(*_):
+    raise RuntimeError('grains.script must not end YADE (sys.exit, exit, quit): an error that it raises ends the run, and so '
+                       'does a file STOP in the run folder')
+
+
 def take_part(parts):
     """Runs the participant, and exits with the exit code of the run.
 
     parts() returns the participant's type (from turbidite_yade) and its scene: an object with the functions called
     from C++, and play(participant), which runs windows until there are no more.
     """
+    exits = replace_exits([refused_exit] * len(EXITS))
     try:
         participant_type, scene = parts()
         participant = participant_type(
@@ -49,6 +67,7 @@ def take_part(parts):
         code = participant.leave()
     except Exception:
         abort()
+    replace_exits(exits)
     sys.stdout.flush()
     if code != 0:
         sys.exit(code)

@@ -33,6 +33,12 @@ class NoScript:
     def check_step(self):
         pass
 
+    def check_one_step(self, before):
+        pass
+
+    def stopped(self):
+        return Fault('YADE has stopped before the run was over')
+
     def expect_fewer(self, bodies):
         pass
 
@@ -51,7 +57,7 @@ class Script:
         self.file = file
         self.step, self.engines = O.dt, list(O.engines)
         self.bodies, self.count = {body.id: body for body in O.bodies}, len(O.bodies)
-        self.frictions = self._frictions()
+        self.materials, self.setups = self._materials(), self._setups()
         self.walls = {i: self._place(body) for i, body in self.bodies.items() if not hasattr(body.shape, 'radius')}
         begin = (O.iter, self._motions())
         self._run()
@@ -82,8 +88,15 @@ class Script:
         return tuple(body.state.pos), tuple(body.state.vel), tuple(body.state.angVel)
 
     @staticmethod
-    def _frictions():
-        return [getattr(material, 'frictionAngle', None) for material in O.materials]
+    def _materials():
+        """What contacts take from the materials: friction, and springs and dashpots of molecular dynamics."""
+        return [tuple(getattr(material, name, None) for name in ('frictionAngle', 'kn', 'ks', 'cn', 'cs'))
+                for material in O.materials]
+
+    def _setups(self):
+        """What engines of the case do: those that are dead do nothing; gravity and damping are the integrator's."""
+        return [(engine.dead, tuple(getattr(engine, 'gravity', ())), getattr(engine, 'damping', None))
+                for engine in self.engines]
 
     def check(self, moved=None):
         """Called before every window; `moved` is the id of a grain not moved by the coupling."""
@@ -91,8 +104,9 @@ class Script:
         self._check_engines()
         self._check_bodies()
         # Materials that the script has added follow those of the case.
-        if self._frictions()[:len(self.frictions)] != self.frictions:
-            self._refuse('changed the friction of a material', 'use contact.friction, or contact.materials')
+        if self._materials()[:len(self.materials)] != self.materials:
+            self._refuse('changed the friction or the springs of a material',
+                         'use contact.friction or contact.materials, and contact.md_stiffness')
         if moved is not None:
             self._refuse(f'moved grain {moved} or changed its velocity',
                          'the fluid also moves grains and would not see the change')
@@ -108,6 +122,16 @@ class Script:
         if O.dt != self.step:
             self._refuse(f'changed O.dt from {self.step} to {O.dt}', 'use time.step, or contact.md_substeps')
 
+    def check_one_step(self, before):
+        """Called after a step of YADE that began with O.iter = `before`."""
+        if O.iter != before + 1:
+            self._refuse(f'made {O.iter - before - 1} steps within one (O.run, O.step)', 'the coupled run makes the steps')
+
+    def stopped(self):
+        """The fault of a YADE that has stopped before the run was over."""
+        return Fault(f'grains.script: {self.file} stopped YADE before the run was over (O.pause, O.stopAtIter, O.stopAtTime); '
+                     'to end a run early, make a file STOP in its folder')
+
     def _engine_places(self):
         present = list(O.engines)
         return [next((k for k, engine in enumerate(present) if engine is ours), None) for ours in self.engines]
@@ -120,10 +144,16 @@ class Script:
                 self._refuse(f'removed the engine {name}', 'O.engines = O.engines + [...] adds some')
         if places != sorted(places):
             self._refuse('reordered the engines of the case', 'keep their order and add others')
+        for ours, before, now in zip(self.engines, self.setups, self._setups()):
+            if now != before:
+                self._refuse(f'switched off the engine {type(ours).__name__} {ours.label}'.rstrip() if now[0] != before[0]
+                             else 'changed gravity or damping of the integrator',
+                             'engines of the case do what it says; gravity is that of its scales')
 
     def _check_bodies(self):
         if len(O.bodies) != self.count:
-            self._refuse(f'added {len(O.bodies) - self.count} bodies', 'bodies are those of the case: use grains.file')
+            added = len(O.bodies) - self.count
+            self._refuse(f'added {added} {"body" if added == 1 else "bodies"}', 'bodies are those of the case: use grains.file')
         for i in self.bodies:
             if O.bodies[i] is None:
                 self._refuse(f'erased body {i}', 'bodies are those of the case')
