@@ -253,6 +253,7 @@ void draw_missing_reports(const std::vector<PlannedRun>& plan, const fs::path& o
     for (const PlannedRun& run : plan) {
         const RunFolder folder{out / run.path()};
         if (state_of(run, out) != RunState::done || fs::exists(folder.report())) continue;
+        if (RunLock::is_held(folder.root)) continue;  // another call has it, and draws its report
         fmt::print("{}", for_stdout("report of " + run.path() + "\n"));
         write_report(folder, find_programs());
     }
@@ -306,8 +307,8 @@ std::vector<std::string> words_of(const StudyOptions& options, const fs::path& o
 void tell_of_another(const std::vector<std::string>& command, const fs::path& out) {
     const auto before = read_run_json(out / "study.json").value("command", command);
     const auto without_folder = [](std::vector<std::string> words) {
-        if (const auto at = std::find(words.begin(), words.end(), "--out"); at + 1 < words.end())
-            words.erase(at, at + 2);
+        const auto at = std::find(words.begin(), words.end(), "--out");
+        if (std::distance(at, words.end()) >= 2) words.erase(at, at + 2);
         return words;
     };
     if (without_folder(before) == without_folder(command)) return;

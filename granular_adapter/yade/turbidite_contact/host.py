@@ -17,8 +17,9 @@ SAME_GRAVITY = 1e-12  # of it: digits of a saved scene
 
 def settings(gravity, show, contact):
     """Checked settings in JSON types: gravity, show, options (strings, by key of the group contact)."""
-    if len(gravity) != 3:
-        raise Refused(f'turbidite_contact: gravity = {tuple(gravity)} must be (x, y, z); z is 0 in the plane')
+    if not hasattr(gravity, '__len__') or len(gravity) != 3:
+        told = tuple(gravity) if hasattr(gravity, '__len__') else gravity
+        raise Refused(f'turbidite_contact: gravity = {told} must be (x, y, z); z is 0 in the plane')
     if int(show) != show or show < 0:
         raise Refused(f'turbidite_contact: show = {show} must be a whole number of steps, or 0')
     if 'friction' in contact:

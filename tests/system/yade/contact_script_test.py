@@ -488,8 +488,9 @@ class Refusals(SceneTest):
         self.refused('turbidite_contact_state')
 
     def test_settings(self):
-        with self.assertRaisesRegex(turbidite_contact.Refused, r'must be \(x, y, z\)'):
-            turbidite_contact.engines(gravity=(0, -9.81))
+        for gravity in ((0, -9.81), 9.81):
+            with self.assertRaisesRegex(turbidite_contact.Refused, r'must be \(x, y, z\)'):
+                turbidite_contact.engines(gravity=gravity)
         with self.assertRaisesRegex(turbidite_contact.Refused, 'frictionAngle'):
             turbidite_contact.engines(friction=0.3)
         with self.assertRaisesRegex(RuntimeError, 'contact.tolerance = 2'):
