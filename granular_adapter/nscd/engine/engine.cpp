@@ -33,6 +33,10 @@ constexpr int turn_rounds = 2;
 constexpr double most_sinking = 0.01;
 constexpr double least_tolerance = 1e-13;  // rounding
 
+// Steps that change little are solved before. In space alone: the deep beds of the plane are not
+// measured (docs/decisions/contact-solvers.md).
+constexpr std::int64_t sweeps_before_momentum = 16;
+
 SurfaceTable surface_table(const EngineSettings& settings) {
     if (!settings.surfaces.empty()) return SurfaceTable(settings.surfaces, settings.surface_pairs);
     Surface only;
@@ -272,6 +276,7 @@ SolverResult Engine::solve(double dt) {
 /// in by more than `most_sinking`; where its sweeps do not suffice, it has not converged.
 SolverResult Engine::solve_from(const Impulses& guess, double dt) {
     SolverSettings settings = settings_.solver_settings;
+    if (in_space()) settings.momentum_after = sweeps_before_momentum;
     SolverResult result = solver_->solve(contacts_.problem, guess, settings);
     while (result.converged && sinking(result, dt) > most_sinking) {
         settings.tolerance *= 0.1;

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "granular_adapter/nscd/problem/measures.hpp"
 #include "granular_adapter/nscd/solvers/check_schedule.hpp"
+#include "granular_adapter/nscd/solvers/momentum_phases.hpp"
 #include "granular_adapter/nscd/sweeps/cell_schedule.hpp"
+#include "granular_adapter/nscd/sweeps/momentum.hpp"
 #include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
 #include "granular_adapter/nscd/sweeps/sweep_pipeline.hpp"
 
@@ -58,7 +61,8 @@ class NlgsIteration {
           w_(call.w),
           settings_(call.settings),
           sweeps_(sweeps<Rows>(call.instructions)),
-          team_(useful_threads(call.settings, call.problem)) {
+          team_(useful_threads(call.settings, call.problem)),
+          phases_(call.settings.momentum_after) {
         result_.impulses = call.guess;
         leave_out_unloaded(result_.impulses);
         result_.converged = false;
@@ -70,6 +74,7 @@ class NlgsIteration {
             const std::int64_t before = result_.iterations;
             sweep_until_check();
             const SweepCheck found = check();
+            phases_.check(result_.iterations, found.error / (found.size + floor_));
             if (looks_good(found) || result_.iterations == settings_.max_iterations)
                 look();
             else
@@ -138,10 +143,22 @@ class NlgsIteration {
     void sweep_until_check() {
         std::size_t count = 1;
         while (!check_due(++result_.iterations, settings_)) ++count;
+        if (!phases_.with_momentum()) {
+            momentum_.restart();
+            return sweep(count, LastSweep::measured);
+        }
+        constexpr std::size_t step = Momentum<Rows>::sweeps;
+        for (; count > 0; count -= std::min(step, count)) {
+            momentum_.extrapolate(*layout_, team_);
+            sweep(std::min(step, count), count <= step ? LastSweep::measured : LastSweep::plain);
+        }
+    }
+
+    void sweep(std::size_t count, LastSweep last) {
         if (problem_.ranks)
-            pipeline_->run_in_phases(count, [this](std::size_t phase) { exchange(phase); });
+            pipeline_->run_in_phases(count, last, [this](std::size_t phase) { exchange(phase); });
         else
-            pipeline_->run(count, team_);
+            pipeline_->run(count, last, team_);
     }
 
     /// Takes over what other ranks have done to bodies.
@@ -201,15 +218,24 @@ class NlgsIteration {
         result_.residual = found.residual;
         result_.change = found.change;
         result_.converged = result_.residual <= settings_.tolerance;
+        if (result_.converged || result_.iterations <= settings_.momentum_after) return;
+        // What momentum has rounded would in the end hide what is left of the error.
+        layout_->set_velocities(result_.velocities);
+        momentum_.restart();
     }
 
     /// Makes a new layout once the updates spent on groups without impulse have cost as much: in
     /// total at most twice the cost of knowing the future (the ski-rental rule).
     void adapt(std::int64_t sweeps, const SweepCheck& found) {
-        wasted_ += static_cast<double>(sweeps) * (found.visited - found.loaded / Rows::width);
+        const double unloaded = found.visited - found.loaded / Rows::width;
+        if (std::exchange(fresh_, false))
+            unavoidable_ = unloaded;  // groups are as full as they get
+        wasted_ += static_cast<double>(sweeps) * std::max(unloaded - unavoidable_, 0.0);
         if (wasted_ < layout_cost * found.all) return;
         layout_->rearrange(schedule(layout_->loaded(pairs_.size())));
+        momentum_.restart();
         wasted_ = 0.0;
+        fresh_ = true;
     }
 
     const ContactProblem& problem_;
@@ -222,7 +248,11 @@ class NlgsIteration {
     SolverResult result_;
     std::optional<SweepLayout<Rows>> layout_;
     std::optional<SweepPipeline<Rows>> pipeline_;
-    double wasted_ = 0.0;  ///< updates of groups without impulse since the last layout
+    MomentumPhases phases_;
+    Momentum<Rows> momentum_;
+    bool fresh_ = false;        ///< nothing was measured since the last new layout
+    double unavoidable_ = 0.0;  ///< groups that the last new layout has beyond its loaded contacts
+    double wasted_ = 0.0;       ///< updates of groups without impulse since the last layout
 };
 
 }  // namespace turbidite::nscd

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "granular_adapter/nscd/problem/contact_problem.hpp"
 #include "granular_adapter/nscd/problem/residual.hpp"
@@ -21,6 +22,9 @@ struct SolverSettings {
     /// Sweeps between two evaluations of the residual; fewer waste time on evaluations, more on
     /// sweeps.
     std::int64_t check_interval = 8;
+    /// Sweeps after which those that follow may have momentum (sweeps/momentum.hpp); without it
+    /// unless somebody asks.
+    std::int64_t momentum_after = std::numeric_limits<std::int64_t>::max();
     /// Threads for this solve; the result does not depend on it. Small problems use one
     /// (nlgs_iteration.hpp).
     std::int64_t threads = 1;

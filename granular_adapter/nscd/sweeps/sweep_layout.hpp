@@ -11,9 +11,10 @@
 //     fill_empty(rows, lane, slot)           a lane without one, which never closes
 //     impulse(rows, lane)                    the impulse of a packed contact
 //     moment(rows, lane)                     in space: its moment, if rows have some
-//     packed_body(twist, mobility)           a Rows::Body
-//     copy_rates(body, to)                   its velocity and spin as six doubles, for other ranks
-//     set_rates(body, from)                  takes them over
+//     impulse_lanes(rows)                    all impulses and moments of a group, as an array of
+//     Lanes set_impulse_lanes(rows, impulses)      takes them over packed_body(twist, mobility) a
+//     Rows::Body copy_rates(body, to)                   its velocity and spin as six doubles, for
+//     other ranks set_rates(body, from)                  takes them over
 #pragma once
 
 #include <cstddef>
@@ -134,6 +135,7 @@ struct SweepLayout {
                      slot_a, slot_b, r.moments.empty() ? Vec3{} : r.moments[k]});
         }
         bodies = std::move(placed.bodies);
+        placed_ = bodies.size();
         slots = placed.take_slots();
     }
 
@@ -143,6 +145,7 @@ struct SweepLayout {
         const std::vector<std::size_t> place = places();
         schedule = std::move(next);
         make_room();
+        bodies.resize(placed_);  // without those of the empty lanes of the last one
         for (std::size_t i = 0; i < schedule.lanes.size(); ++i) {
             Rows& row = row_of(i);
             const int lane = static_cast<int>(i % Rows::width);
@@ -166,6 +169,16 @@ struct SweepLayout {
         }
     }
 
+    /// By body of the problem.
+    void set_velocities(const std::vector<Twist>& velocities) {
+        for (std::size_t i = 0; i < slots.size(); ++i) {
+            if (slots[i] < 0) continue;
+            const auto& [v, w] = velocities[i];
+            const double rates[] = {v[0], v[1], v[2], w[0], w[1], w[2]};
+            set_rates(bodies[static_cast<std::size_t>(slots[i])], rates);
+        }
+    }
+
     /// By contact, whether it has an impulse.
     std::vector<std::uint8_t> loaded(std::size_t contacts) const {
         std::vector<std::uint8_t> result(contacts);
@@ -176,6 +189,8 @@ struct SweepLayout {
     }
 
  private:
+    std::size_t placed_ = 0;  ///< bodies of the first schedule
+
     void make_room() {
         rows.clear();
         rows.reserve(static_cast<std::size_t>(schedule.all));

@@ -19,6 +19,9 @@
 
 namespace turbidite::nscd {
 
+/// Of several sweeps.
+enum class LastSweep { plain, measured };
+
 template <class Rows>
 class SweepPipeline {
  public:
@@ -28,10 +31,10 @@ class SweepPipeline {
         : sweeps_(sweeps), layout_(layout) {}
 
     /// Runs the given number of sweeps. All of them update the active groups and the reactivated
-    /// groups at rest (`awake`). The last one also measures, tests all groups at rest, and sets
-    /// which of them are `awake`.
-    void run(std::size_t sweeps, ThreadTeam& team) {
-        prepare_sums();
+    /// groups at rest (`awake`). A measured last one also measures, tests all groups at rest, and
+    /// sets which of them are `awake`.
+    void run(std::size_t sweeps, LastSweep last, ThreadTeam& team) {
+        prepare_sums(last);
         progress_ = std::vector<Progress>(sweeps);
         const auto share = [&](int thread) {
             return sweeps * static_cast<std::size_t>(thread) /
@@ -43,18 +46,18 @@ class SweepPipeline {
     /// The same, sweep after sweep, in the phases of the schedule; `after(phase)` ends each of
     /// them.
     template <class After>
-    void run_in_phases(std::size_t sweeps, const After& after) {
-        prepare_sums();
+    void run_in_phases(std::size_t sweeps, LastSweep last, const After& after) {
+        prepare_sums(last);
         const std::vector<std::size_t>& ends = layout_.schedule.phase_ends;
         for (std::size_t sweep = 1; sweep <= sweeps; ++sweep) {
             std::size_t at = 0;
             for (std::size_t phase = 0; phase < ends.size(); after(phase++))
-                for (; at < ends[phase]; ++at) sweep == sweeps ? measure(at) : update(at);
+                for (; at < ends[phase]; ++at) visit(at, sweep == sweeps);
         }
     }
 
-    /// Sums of the last sweep over active groups, and over groups at rest; of a schedule by cells
-    /// one per stretch.
+    /// Sums of the last measured sweep over active groups, and over groups at rest; of a schedule
+    /// by cells one per stretch.
     const Sums& active_sums(std::size_t stretch = 0) const { return active_sums_[stretch]; }
     const Sums& resting_sums(std::size_t stretch = 0) const { return resting_sums_[stretch]; }
 
@@ -66,7 +69,9 @@ class SweepPipeline {
         Progress(const Progress&) {}
     };
 
-    void prepare_sums() {
+    void prepare_sums(LastSweep last) {
+        last_ = last;
+        if (last == LastSweep::plain) return;
         active_sums_.assign(layout_.schedule.by_cells ? stretches().size() : 1, {});
         resting_sums_ = active_sums_;
     }
@@ -87,8 +92,7 @@ class SweepPipeline {
 
     void advance(std::size_t sweep) {
         const std::size_t at = done(sweep);
-        const bool last = sweep + 1 == progress_.size();
-        last ? measure(at) : update(at);
+        visit(at, sweep + 1 == progress_.size());
         progress_[sweep].stretches.store(at + 1, std::memory_order_release);
     }
 
@@ -105,6 +109,10 @@ class SweepPipeline {
             std::memchr(from, 1, static_cast<std::size_t>(range.last - range.first)));
         return found == nullptr ? range.last
                                 : range.first + static_cast<std::int32_t>(found - from);
+    }
+
+    void visit(std::size_t at, bool in_last_sweep) {
+        in_last_sweep&& last_ == LastSweep::measured ? measure(at) : update(at);
     }
 
     void update(std::size_t at) {
@@ -149,6 +157,7 @@ class SweepPipeline {
     Sweeps<Rows> sweeps_;
     SweepLayout<Rows>& layout_;
     std::vector<Progress> progress_;
+    LastSweep last_ = LastSweep::measured;
     std::vector<Sums> active_sums_, resting_sums_;
 };
 

@@ -132,6 +132,13 @@ ContactVector impulse(const SphereRows& row, int) {
     return {row.rn.v[0], row.rt, row.rs, 0.0};
 }
 
+std::array<Lanes<1>, 3> impulse_lanes(const SphereRows& row) {
+    return {row.rn, Lanes<1>{{row.rt}}, Lanes<1>{{row.rs}}};
+}
+void set_impulse_lanes(SphereRows& row, const std::array<Lanes<1>, 3>& r) {
+    row.rn = r[0], row.rt = r[1].v[0], row.rs = r[2].v[0];
+}
+
 void fill(SphereRows& row, int, const ContactToPack<SphereMobility, SphereBlock>& packed) {
     const Contact& c = packed.contact;
     row.rn.v[0] = packed.r.n, row.rt = packed.r.t, row.rs = packed.r.s;

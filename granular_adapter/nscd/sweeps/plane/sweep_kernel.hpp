@@ -272,5 +272,5 @@ TURBIDITE_INLINE bool needs_update(const Rows& row, const PlaneBody* bodies) {
     const Real<Rows::width> un = normal_velocity(row, met), zero{};
     if constexpr (requires { row.w.film; })
         if (row.w.film && (met.rn != 0.0 || row.w.film->acts(un))) return true;
-    return any(larger(met.rn, Real<Rows::width>(-smaller(un, zero))));
+    return any(larger(magnitude(met.rn), Real<Rows::width>(-smaller(un, zero))));
 }

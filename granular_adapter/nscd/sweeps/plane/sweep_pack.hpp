@@ -3,6 +3,7 @@
 // Packs one contact into a lane of a group (sweep_rows.hpp), as sweep_layout.hpp asks for it.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <type_traits>
 
@@ -41,6 +42,25 @@ ContactVector impulse(const Rows& rows, int lane) {
     else if constexpr (requires { rows.roll; })
         r.roll = rows.roll;
     return r;
+}
+
+/// The impulses and moments of a group, for Momentum.
+template <PlaneRows Rows>
+auto impulse_lanes(const Rows& rows) {
+    if constexpr (requires { rows.roll.v; })
+        return std::array{rows.rn, rows.rt, rows.roll};
+    else if constexpr (requires { rows.roll; })
+        return std::array{rows.rn, rows.rt, Lanes<1>{{rows.roll}}};
+    else
+        return std::array{rows.rn, rows.rt};
+}
+template <PlaneRows Rows, class Impulses>
+void set_impulse_lanes(Rows& rows, const Impulses& r) {
+    rows.rn = r[0], rows.rt = r[1];
+    if constexpr (requires { rows.roll.v; })
+        rows.roll = r[2];
+    else if constexpr (requires { rows.roll; })
+        rows.roll = r[2].v[0];
 }
 
 inline PlaneBody packed_body(const Twist& v, const PlanarTensor& mobility) {

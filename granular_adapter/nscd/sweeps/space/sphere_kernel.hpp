@@ -326,5 +326,5 @@ TURBIDITE_INLINE bool needs_update(const Rows& row, const SphereBody* bodies) {
         const R zero{}, reach = load(row.film_cutoff) - (un + load(row.film_offset));
         return any(larger(larger(magnitude(load(row.rn)), closing), larger(reach, zero)));
     }
-    return any(larger(load(row.rn), closing));
+    return any(larger(magnitude(load(row.rn)), closing));
 }

@@ -3,6 +3,7 @@
 // Packs one contact into a lane of a group (sphere_rows.hpp), as sweep_layout.hpp asks for it.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <type_traits>
 
@@ -53,6 +54,20 @@ ContactVector impulse(const Rows& rows, int lane) {
 template <int lanes>
 Vec3 moment(const TurningSphereRows<lanes>& rows, int lane) {
     return {rows.mx.v[lane], rows.my.v[lane], rows.mz.v[lane]};
+}
+
+/// The impulses and moments of a group, for Momentum.
+template <SphereKind Rows>
+auto impulse_lanes(const Rows& rows) {
+    if constexpr (requires { rows.mx; })
+        return std::array{rows.rn, rows.rx, rows.ry, rows.rz, rows.mx, rows.my, rows.mz};
+    else
+        return std::array{rows.rn, rows.rx, rows.ry, rows.rz};
+}
+template <SphereKind Rows, class Impulses>
+void set_impulse_lanes(Rows& rows, const Impulses& r) {
+    rows.rn = r[0], rows.rx = r[1], rows.ry = r[2], rows.rz = r[3];
+    if constexpr (requires { rows.mx; }) rows.mx = r[4], rows.my = r[5], rows.mz = r[6];
 }
 
 inline SphereBody packed_body(const Twist& v, const SpaceMobility& mobility) {

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Momentum between sweeps (Nesterov 1983). With x_k the impulses and velocities after k pairs of
+// sweeps, the next pair starts from
+//
+//     y_k = x_k + beta_k (x_k - x_{k-1}),    beta_k = k/(k + 5)
+//
+// A sweep moves impulses by one contact or a few, so that a column of n grains takes some n^2
+// sweeps to feel its load, and some n with momentum. Velocities are affine in the impulses, v =
+// v_free + M^-1 H r, so that those of y_k belong to its impulses. An impulse of y_k may be outside
+// its cone; the next update puts it back.
+//
+// Contacts that open and close spoil what was gathered: then k begins again at 0 (as in O'Donoghue
+// and Candes 2015, with the measured error as the sign of it).
+//
+// Pairs, so that sweeps still follow each other in the pipeline and threads have work.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
+#include "granular_adapter/nscd/sweeps/thread_team.hpp"
+
+namespace turbidite::nscd {
+
+template <class Rows>
+class Momentum {
+ public:
+    static constexpr std::size_t sweeps = 2;  ///< of a step
+
+    void restart() { steps_ = 0; }
+
+    /// Takes x_k of the layout, and leaves y_k there. Between two calls the layout has the same
+    /// groups, or restart() was called.
+    void extrapolate(SweepLayout<Rows>& layout, ThreadTeam& team) {
+        if (steps_ == 0) {
+            bodies_.resize(layout.bodies.size());
+            impulses_.resize(layout.rows.size());
+        }
+        const double k = static_cast<double>(steps_), beta = k / (k + 5.0);
+        team.run([&](int thread) {
+            const auto begin = [&](std::size_t count, int of) {
+                return count * static_cast<std::size_t>(of) / static_cast<std::size_t>(team.size());
+            };
+            for (std::size_t i = begin(bodies_.size(), thread);
+                 i < begin(bodies_.size(), thread + 1); ++i)
+                advance(layout.bodies[i], bodies_[i], beta);
+            for (std::size_t i = begin(impulses_.size(), thread);
+                 i < begin(impulses_.size(), thread + 1); ++i)
+                advance(layout.rows[i], impulses_[i], beta);
+        });
+        ++steps_;
+    }
+
+ private:
+    using Body = typename Rows::Body;
+    /// By row.
+    using RowImpulses = decltype(impulse_lanes(std::declval<const Rows&>()));
+
+    // x + beta (x - before), which leaves what is constant as it is. In the first step `before` is
+    // of no meaning: it counts only times beta > 0.
+    static double next(double x, double before, double beta) {
+        return beta == 0.0 ? x : x + beta * (x - before);
+    }
+    static void advance(Body& body, Body& before, double beta) {
+        const Body now = body;
+        auto* const x = reinterpret_cast<double*>(&body);
+        const auto* const old = reinterpret_cast<const double*>(&before);
+        for (std::size_t i = 0; i < sizeof(Body) / sizeof(double); ++i)
+            x[i] = next(x[i], old[i], beta);
+        before = now;
+    }
+    static void advance(Rows& row, RowImpulses& before, double beta) {
+        const RowImpulses now = impulse_lanes(row);
+        RowImpulses y = now;
+        for (std::size_t i = 0; i < y.size(); ++i)
+            for (int lane = 0; lane < Rows::width; ++lane)
+                y[i].v[lane] = next(now[i].v[lane], before[i].v[lane], beta);
+        set_impulse_lanes(row, y);
+        before = now;
+    }
+
+    std::size_t steps_ = 0;
+    std::vector<Body> bodies_;           ///< of x_{k-1}
+    std::vector<RowImpulses> impulses_;  ///< the same
+};
+
+}  // namespace turbidite::nscd
