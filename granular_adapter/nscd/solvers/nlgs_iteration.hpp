@@ -228,8 +228,9 @@ class NlgsIteration {
     /// total at most twice the cost of knowing the future (the ski-rental rule).
     void adapt(std::int64_t sweeps, const SweepCheck& found) {
         const double unloaded = found.visited - found.loaded / Rows::width;
-        if (std::exchange(fresh_, false))
-            unavoidable_ = unloaded;  // groups are as full as they get
+        // A new layout also ends momentum: what it could not save is no reason for the next.
+        const bool first_look = std::exchange(fresh_, false);
+        if (first_look && settings_.momentum_after < result_.iterations) unavoidable_ = unloaded;
         wasted_ += static_cast<double>(sweeps) * std::max(unloaded - unavoidable_, 0.0);
         if (wasted_ < layout_cost * found.all) return;
         layout_->rearrange(schedule(layout_->loaded(pairs_.size())));
