@@ -12,6 +12,8 @@
 // of their own, which sweeps skip; the measuring sweeps test them all and reactivate groups with a
 // closing contact.
 //
+// Where a caller asks for it, later sweeps have momentum (momentum_phases.hpp).
+//
 // The fast implementation, with bitwise the same result: nlgs_iteration.hpp, contact_schedule.hpp,
 // sweep_pipeline.hpp, and the kernel of each kind of contact (plane/sweep_kernel.hpp,
 // space/sphere_kernel.hpp).

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "granular_adapter/nscd/sweeps/sweep_layout.hpp"

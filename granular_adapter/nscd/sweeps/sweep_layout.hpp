@@ -11,10 +11,11 @@
 //     fill_empty(rows, lane, slot)           a lane without one, which never closes
 //     impulse(rows, lane)                    the impulse of a packed contact
 //     moment(rows, lane)                     in space: its moment, if rows have some
-//     impulse_lanes(rows)                    all impulses and moments of a group, as an array of
-//     Lanes set_impulse_lanes(rows, impulses)      takes them over packed_body(twist, mobility) a
-//     Rows::Body copy_rates(body, to)                   its velocity and spin as six doubles, for
-//     other ranks set_rates(body, from)                  takes them over
+//     impulse_lanes(rows)                    impulses and moments of a group: an array of Lanes
+//     set_impulse_lanes(rows, impulses)      takes them over
+//     packed_body(twist, mobility)           a Rows::Body
+//     copy_rates(body, to)                   its velocity and spin as six doubles, for other ranks
+//     set_rates(body, from)                  takes them over
 #pragma once
 
 #include <cstddef>

@@ -112,7 +112,10 @@ class SweepPipeline {
     }
 
     void visit(std::size_t at, bool in_last_sweep) {
-        in_last_sweep&& last_ == LastSweep::measured ? measure(at) : update(at);
+        if (in_last_sweep && last_ == LastSweep::measured)
+            measure(at);
+        else
+            update(at);
     }
 
     void update(std::size_t at) {

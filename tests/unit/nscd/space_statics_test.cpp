@@ -44,6 +44,20 @@ TEST(SpaceStatics, ASphereOnThreeStandsIffFrictionHoldsIt) {
     EXPECT_GT(fall(pyramid(mu_ample, 0.25 * half - 5e-4)), 1e-4);
 }
 
+// With momentum between sweeps; it takes thousands without.
+TEST(SpaceStatics, ATallStackFeelsItsWeightInSomeHundredSweeps) {
+    constexpr int count = 60;
+    Engine engine(scenes::exact_in_space(mu_ample, 1e-6), scenes::spheres,
+                  {scenes::floor(mu_ample)});
+    for (int i = 0; i < count; ++i) engine.bodies().add(scenes::sphere(i + 1, {0.0, i + 0.5, 0.0}));
+    const StepReport report = engine.step(0.01);
+    EXPECT_TRUE(report.converged);
+    EXPECT_LT(report.iterations, 1000);
+    double lowest = 0.0;
+    for (const ContactVector& r : engine.impulses()) lowest = std::max(lowest, r.n);
+    EXPECT_NEAR(lowest / (count * 0.01 * engine.bodies().mass[0]), 1.0, 0.01);
+}
+
 // In a pocket of fixed spheres no friction is needed: three normals carry the weight, each m g/(3
 // cos theta).
 TEST(SpaceStatics, APocketOfFixedSpheresNeedsNoFriction) {
