@@ -33,8 +33,7 @@ constexpr int turn_rounds = 2;
 constexpr double most_sinking = 0.01;
 constexpr double least_tolerance = 1e-13;  // rounding
 
-// Steps that change little are solved before. In space alone: the deep beds of the plane are not
-// measured (docs/decisions/contact-solvers.md).
+// Steps that change little are solved before. In space alone: docs/decisions/contact-solvers.md.
 constexpr std::int64_t sweeps_before_momentum = 16;
 
 SurfaceTable surface_table(const EngineSettings& settings) {

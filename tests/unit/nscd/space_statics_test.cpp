@@ -44,7 +44,7 @@ TEST(SpaceStatics, ASphereOnThreeStandsIffFrictionHoldsIt) {
     EXPECT_GT(fall(pyramid(mu_ample, 0.25 * half - 5e-4)), 1e-4);
 }
 
-// With momentum between sweeps; it takes thousands without.
+// With momentum between sweeps.
 TEST(SpaceStatics, ATallStackFeelsItsWeightInSomeHundredSweeps) {
     constexpr int count = 60;
     Engine engine(scenes::exact_in_space(mu_ample, 1e-6), scenes::spheres,
