@@ -28,9 +28,9 @@ class MomentumPhases {
         if (phase_ == Phase::momentum && grows(error)) {
             phase_ = Phase::settling;
         } else if (phase_ == Phase::settling) {
-            pause_ = pays(between(start_, now)) ? 0 : 2 * pause_;
-            phase_ = Phase::plain, start_ = now, until_ = sweeps + pause_;
-            if (pause_ == 0) pause_ = shortest_pause;
+            const bool paid = pays(between(start_, now));
+            pause_ = paid ? shortest_pause : 2 * pause_;
+            phase_ = Phase::plain, start_ = now, until_ = paid ? sweeps : sweeps + pause_;
         }
         if (phase_ == Phase::plain && sweeps >= until_) {
             if (sweeps > start_.sweeps) plain_ = between(start_, now);
@@ -48,6 +48,7 @@ class MomentumPhases {
 
     static constexpr std::int64_t shortest_pause = 8;
 
+    /// By half since the last check, or to four times what it was when the phase began.
     bool grows(double error) const {
         return error > 1.5 * last_error_ || error > 4.0 * start_.error;
     }

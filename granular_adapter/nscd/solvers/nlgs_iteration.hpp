@@ -218,11 +218,13 @@ class NlgsIteration {
         result_.residual = found.residual;
         result_.change = found.change;
         result_.converged = result_.residual <= settings_.tolerance;
-        if (result_.converged || result_.iterations <= settings_.momentum_after) return;
+        if (result_.converged || !may_have_momentum()) return;
         // What momentum has rounded would in the end hide what is left of the error.
         layout_->set_velocities(result_.velocities);
         momentum_.restart();
     }
+
+    bool may_have_momentum() const { return result_.iterations > settings_.momentum_after; }
 
     /// Makes a new layout once the updates spent on groups without impulse have cost as much: in
     /// total at most twice the cost of knowing the future (the ski-rental rule).
@@ -230,7 +232,7 @@ class NlgsIteration {
         const double unloaded = found.visited - found.loaded / Rows::width;
         // A new layout also ends momentum: what it could not save is no reason for the next.
         const bool first_look = std::exchange(fresh_, false);
-        if (first_look && settings_.momentum_after < result_.iterations) unavoidable_ = unloaded;
+        if (first_look && may_have_momentum()) unavoidable_ = unloaded;
         wasted_ += static_cast<double>(sweeps) * std::max(unloaded - unavoidable_, 0.0);
         if (wasted_ < layout_cost * found.all) return;
         layout_->rearrange(schedule(layout_->loaded(pairs_.size())));

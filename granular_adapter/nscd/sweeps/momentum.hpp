@@ -10,8 +10,7 @@
 // v_free + M^-1 H r, so that those of y_k belong to its impulses. An impulse of y_k may be outside
 // its cone; the next update puts it back.
 //
-// Contacts that open and close spoil what was gathered: then k begins again at 0 (as in O'Donoghue
-// and Candes 2015, with the measured error as the sign of it).
+// When k begins again at 0: solvers/momentum_phases.hpp.
 //
 // Pairs, so that sweeps still follow each other in the pipeline and threads have work.
 #pragma once
@@ -41,15 +40,8 @@ class Momentum {
         }
         const double k = static_cast<double>(steps_), beta = k / (k + 5.0);
         team.run([&](int thread) {
-            const auto begin = [&](std::size_t count, int of) {
-                return count * static_cast<std::size_t>(of) / static_cast<std::size_t>(team.size());
-            };
-            for (std::size_t i = begin(bodies_.size(), thread);
-                 i < begin(bodies_.size(), thread + 1); ++i)
-                advance(layout.bodies[i], bodies_[i], beta);
-            for (std::size_t i = begin(impulses_.size(), thread);
-                 i < begin(impulses_.size(), thread + 1); ++i)
-                advance(layout.rows[i], impulses_[i], beta);
+            advance_part(layout.bodies, bodies_, beta, team, thread);
+            advance_part(layout.rows, impulses_, beta, team, thread);
         });
         ++steps_;
     }
@@ -63,6 +55,13 @@ class Momentum {
     // of no meaning: it counts only times beta > 0.
     static double next(double x, double before, double beta) {
         return beta == 0.0 ? x : x + beta * (x - before);
+    }
+    template <class State, class Before>
+    static void advance_part(std::vector<State>& x, std::vector<Before>& before, double beta,
+                             const ThreadTeam& team, int thread) {
+        const std::size_t end = team.part_begin(before.size(), thread + 1);
+        for (std::size_t i = team.part_begin(before.size(), thread); i < end; ++i)
+            advance(x[i], before[i], beta);
     }
     static void advance(Body& body, Body& before, double beta) {
         const Body now = body;

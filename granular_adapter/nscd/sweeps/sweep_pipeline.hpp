@@ -36,11 +36,9 @@ class SweepPipeline {
     void run(std::size_t sweeps, LastSweep last, ThreadTeam& team) {
         prepare_sums(last);
         progress_ = std::vector<Progress>(sweeps);
-        const auto share = [&](int thread) {
-            return sweeps * static_cast<std::size_t>(thread) /
-                   static_cast<std::size_t>(team.size());
-        };
-        team.run([&](int thread) { drive(share(thread), share(thread + 1)); });
+        team.run([&](int thread) {
+            drive(team.part_begin(sweeps, thread), team.part_begin(sweeps, thread + 1));
+        });
     }
 
     /// The same, sweep after sweep, in the phases of the schedule; `after(phase)` ends each of

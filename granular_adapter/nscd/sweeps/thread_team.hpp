@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <thread>
@@ -20,6 +21,12 @@ class ThreadTeam {
     ThreadTeam& operator=(const ThreadTeam&) = delete;
 
     int size() const { return static_cast<int>(threads_.size()) + 1; }
+
+    /// Where the part of a thread begins when `count` pieces are shared; it ends where the next
+    /// begins.
+    std::size_t part_begin(std::size_t count, int thread) const {
+        return count * static_cast<std::size_t>(thread) / static_cast<std::size_t>(size());
+    }
 
     /// Calls work(0) … work(size - 1), each in its own thread, and returns when all are done. The
     /// work must not throw.
