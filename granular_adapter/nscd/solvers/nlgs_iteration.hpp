@@ -147,10 +147,9 @@ class NlgsIteration {
             momentum_.restart();
             return sweep(count, LastSweep::measured);
         }
-        constexpr std::size_t step = Momentum<Rows>::sweeps;
-        for (; count > 0; count -= std::min(step, count)) {
+        for (; count > 0; --count) {
             momentum_.extrapolate(*layout_, team_);
-            sweep(std::min(step, count), count <= step ? LastSweep::measured : LastSweep::plain);
+            sweep(1, count == 1 ? LastSweep::measured : LastSweep::plain);
         }
     }
 
@@ -221,7 +220,6 @@ class NlgsIteration {
         if (result_.converged || !may_have_momentum()) return;
         // What momentum has rounded would in the end hide what is left of the error.
         layout_->set_velocities(result_.velocities);
-        momentum_.restart();
     }
 
     bool may_have_momentum() const { return result_.iterations > settings_.momentum_after; }
@@ -234,9 +232,9 @@ class NlgsIteration {
         const bool first_look = std::exchange(fresh_, false);
         if (first_look && may_have_momentum()) unavoidable_ = unloaded;
         wasted_ += static_cast<double>(sweeps) * std::max(unloaded - unavoidable_, 0.0);
-        if (wasted_ < layout_cost * found.all) return;
+        // Momentum knows the impulses by their place.
+        if (wasted_ < layout_cost * found.all || phases_.with_momentum()) return;
         layout_->rearrange(schedule(layout_->loaded(pairs_.size())));
-        momentum_.restart();
         wasted_ = 0.0;
         fresh_ = true;
     }

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
-// Momentum between sweeps (Nesterov 1983). With x_k the impulses and velocities after k pairs of
-// sweeps, the next pair starts from
+// Momentum between sweeps (Nesterov 1983; Polyak 1964). With x_k the impulses and velocities after
+// k sweeps, the next sweep starts from
 //
-//     y_k = x_k + beta_k (x_k - x_{k-1}),    beta_k = k/(k + 5)
+//     y_k = x_k + beta_k (x_k - x_{k-1}),    beta_k = min(k/(k + 2), 0.95)
 //
 // A sweep moves impulses by one contact or a few, so that a column of n grains takes some n^2
-// sweeps to feel its load, and some n with momentum. Velocities are affine in the impulses, v =
-// v_free + M^-1 H r, so that those of y_k belong to its impulses. An impulse of y_k may be outside
-// its cone; the next update puts it back.
+// sweeps to feel its load, and some n with momentum. The bound makes momentum forget in some twenty
+// sweeps: without it the column swings about its solution. Velocities are affine in the impulses, v
+// = v_free + M^-1 H r, so that those of y_k belong to its impulses. An impulse of y_k may be
+// outside its cone; the next update puts it back.
 //
-// When k begins again at 0: solvers/momentum_phases.hpp.
-//
-// Pairs, so that sweeps still follow each other in the pipeline and threads have work.
+// Which sweeps have it: solvers/momentum_phases.hpp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -27,8 +27,6 @@ namespace turbidite::nscd {
 template <class Rows>
 class Momentum {
  public:
-    static constexpr std::size_t sweeps = 2;  ///< of a step
-
     void restart() { steps_ = 0; }
 
     /// Takes x_k of the layout, and leaves y_k there. Between two calls the layout has the same
@@ -38,7 +36,7 @@ class Momentum {
             bodies_.resize(layout.bodies.size());
             impulses_.resize(layout.rows.size());
         }
-        const double k = static_cast<double>(steps_), beta = k / (k + 5.0);
+        const double k = static_cast<double>(steps_), beta = std::min(k / (k + 2.0), 0.95);
         team.run([&](int thread) {
             advance_part(layout.bodies, bodies_, beta, team, thread);
             advance_part(layout.rows, impulses_, beta, team, thread);

@@ -4,6 +4,9 @@
 // momentum does not help it is given up.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "granular_adapter/nscd/problem/residual.hpp"
 #include "granular_adapter/nscd/solvers/momentum_phases.hpp"
 #include "granular_adapter/nscd/solvers/nlgs.hpp"
@@ -74,33 +77,45 @@ TEST(Momentum, IsNotInTheFirstSweeps) {
     EXPECT_NE(after(32, 16), after(32, never));
 }
 
-// The error falls by a tenth in eight plain sweeps, and grows with momentum.
-TEST(MomentumPhases, GiveMomentumUpWhereItDoesNotHelp) {
-    MomentumPhases phases(16);
+/// By sweep, in checks of eight: whether it has momentum, while `fall` times the error is left
+/// after each check.
+std::vector<bool> with_momentum(MomentumPhases phases, double fall_with, double fall_without) {
+    std::vector<bool> result;
     double error = 1.0;
-    int with = 0, checks = 0;
-    for (std::int64_t sweeps = 8; sweeps <= 80000; sweeps += 8, ++checks) {
-        error *= phases.with_momentum() ? 2.0 : 0.9;
-        with += phases.with_momentum() ? 1 : 0;
+    for (std::int64_t sweeps = 8; sweeps <= 80000; sweeps += 8) {
+        result.insert(result.end(), 8, phases.with_momentum());
+        error *= phases.with_momentum() ? fall_with : fall_without;
         phases.check(sweeps, error);
     }
-    EXPECT_GE(with, 2);
-    EXPECT_LT(with, 20);
-    EXPECT_EQ(checks, 10000);
+    return result;
 }
 
-// Momentum that helps begins anew at once where the error grows, and goes on.
-TEST(MomentumPhases, KeepMomentumThatHelps) {
-    MomentumPhases phases(16);
-    double error = 1.0;
-    int with = 0, checks = 0;
-    for (std::int64_t sweeps = 8; sweeps <= 800; sweeps += 8, ++checks) {
-        const bool grows = checks % 10 == 9;
-        error *= !phases.with_momentum() ? 0.99 : grows ? 1.6 : 0.8;
-        with += phases.with_momentum() ? 1 : 0;
-        phases.check(sweeps, error);
+std::ptrdiff_t count(const std::vector<bool>& sweeps) {
+    return std::count(sweeps.begin(), sweeps.end(), true);
+}
+
+/// Lengths of runs of equal values, the first `n`.
+std::vector<int> lengths(const std::vector<bool>& sweeps, std::size_t n) {
+    std::vector<int> result{0};
+    for (std::size_t i = 0; i < sweeps.size() && result.size() <= n; ++i) {
+        if (i > 0 && sweeps[i] != sweeps[i - 1]) result.push_back(0);
+        ++result.back();
     }
-    EXPECT_GT(with, 80);
+    result.resize(n);
+    return result;
+}
+
+// Errors that grow in a cycle, and are the smaller at its end.
+TEST(MomentumPhases, CyclesGrowWhereTheyHelp) {
+    const std::vector<bool> sweeps = with_momentum(MomentumPhases(16), 1.01, 0.5);
+    EXPECT_EQ(lengths(sweeps, 8), (std::vector<int>{16, 24, 8, 56, 8, 120, 8, 120}));
+    EXPECT_GT(count(sweeps), 0.9 * static_cast<double>(sweeps.size()));
+}
+
+TEST(MomentumPhases, GiveMomentumUpWhereItDoesNotHelp) {
+    const std::vector<bool> sweeps = with_momentum(MomentumPhases(16), 2.0, 0.9);
+    EXPECT_EQ(lengths(sweeps, 6), (std::vector<int>{16, 24, 136, 24, 264, 24}));
+    EXPECT_LT(count(sweeps), 0.005 * static_cast<double>(sweeps.size()));
 }
 
 }  // namespace
