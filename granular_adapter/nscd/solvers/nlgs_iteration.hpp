@@ -228,7 +228,7 @@ class NlgsIteration {
     /// total at most twice the cost of knowing the future (the ski-rental rule).
     void adapt(std::int64_t sweeps, const SweepCheck& found) {
         const double unloaded = found.visited - found.loaded / Rows::width;
-        // A new layout also ends momentum: what it could not save is no reason for the next.
+        // What the last new layout could not save is no reason for the next.
         const bool first_look = std::exchange(fresh_, false);
         if (first_look && may_have_momentum()) unavoidable_ = unloaded;
         wasted_ += static_cast<double>(sweeps) * std::max(unloaded - unavoidable_, 0.0);

@@ -108,14 +108,16 @@ std::vector<int> lengths(const std::vector<bool>& sweeps, std::size_t n) {
 // Errors that grow in a cycle, and are the smaller at its end.
 TEST(MomentumPhases, CyclesGrowWhereTheyHelp) {
     const std::vector<bool> sweeps = with_momentum(MomentumPhases(16), 1.01, 0.5);
-    EXPECT_EQ(lengths(sweeps, 8), (std::vector<int>{16, 24, 8, 56, 8, 120, 8, 120}));
-    EXPECT_GT(count(sweeps), 0.9 * static_cast<double>(sweeps.size()));
+    EXPECT_EQ(lengths(sweeps, 8), (std::vector<int>{16, 24, 8, 56, 8, 112, 16, 112}));
+    EXPECT_GT(count(sweeps), 0.8 * static_cast<double>(sweeps.size()));
 }
 
 TEST(MomentumPhases, GiveMomentumUpWhereItDoesNotHelp) {
     const std::vector<bool> sweeps = with_momentum(MomentumPhases(16), 2.0, 0.9);
-    EXPECT_EQ(lengths(sweeps, 6), (std::vector<int>{16, 24, 136, 24, 264, 24}));
-    EXPECT_LT(count(sweeps), 0.005 * static_cast<double>(sweeps.size()));
+    const std::vector<int> pause = lengths(sweeps, 13);
+    EXPECT_EQ(pause,
+              (std::vector<int>{16, 24, 8, 56, 8, 112, 16 + 128, 112, 16, 112, 16, 112, 16 + 256}));
+    EXPECT_LT(count(sweeps), 0.05 * static_cast<double>(sweeps.size()));
 }
 
 }  // namespace
