@@ -139,15 +139,17 @@ std::vector<Twist> RankDomain::extremes(const std::vector<Twist>& own) const {
 
 void RankDomain::cut(const ParityGrid& grid, const Bodies& own) {
     if (areas_.cut) return;
-    // No step has counted contacts yet: bodies stand for them.
-    if (loads_.empty()) {
+    // No step has counted contacts yet: bodies stand for them, where the case puts them, until the
+    // next step; a checkpoint may have them elsewhere.
+    if (!areas_.counted) {
+        loads_.clear();
         std::map<Vec3, double> count;
         for (const Vec3& x : own.position) count[grid.centre(grid.cell(x))] += 1.0;
         for (const auto& [centre, bodies] : count) loads_.push_back({centre, bodies});
     }
     areas_.cuts = RankCuts(gathered(ranks_, loads_), ranks_.size());
     areas_.cut = true;
-    areas_.steps = 0;
+    areas_.steps = areas_.counted ? 0 : steps_between_cuts - 1;
 }
 
 int RankDomain::home(const ParityGrid& grid, const Vec3& position, double radius) const {
@@ -407,6 +409,7 @@ const RankPlan& RankDomain::plan(const ParityGrid& grid, const Bodies& bodies,
         contact_ends.push_back(all_ends[phase]);
     }
     // The work of a cell is its number of contacts in this step.
+    areas_.counted = true;
     loads_.clear();
     for (std::size_t cell = 0; cell < found.cells.size(); ++cell) {
         const std::int32_t first = found.cells.first(cell), end = found.cells.end[cell];

@@ -85,6 +85,7 @@ class RankDomain {
         RankCuts cuts;
         bool cut = false;
         std::int64_t steps = 0;  ///< since they were cut
+        bool counted = false;    ///< the loads are of contacts; the same on all ranks
     } areas_;
     std::vector<CellLoad> loads_;  ///< of the own cells in the last step
     PeriodicBox box_;
