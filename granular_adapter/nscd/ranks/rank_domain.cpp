@@ -139,8 +139,8 @@ std::vector<Twist> RankDomain::extremes(const std::vector<Twist>& own) const {
 
 void RankDomain::cut(const ParityGrid& grid, const Bodies& own) {
     if (areas_.cut) return;
-    // No step has counted contacts yet: bodies stand for them, where the case puts them, until the
-    // next step; a checkpoint may have them elsewhere.
+    // Until a step has counted contacts, bodies stand for them. In a resumed run they are still
+    // where the case puts them, so that areas may be cut anew as soon as contacts are counted.
     if (!areas_.counted) {
         loads_.clear();
         std::map<Vec3, double> count;
