@@ -216,7 +216,6 @@ TEST(Ranks, AreCutAnewWhereTheWorkIsUneven) {
     Scene scene;
     scene.settings = scenes::exact_in_space(0.4, 1e-4);
     scene.walls = {scenes::floor(0.4)};
-    scene.steps = 4;
     GrainId id = 0;
     for (int x = 0; x < 12; ++x)
         for (int z = 0; z < 6; ++z)
@@ -225,12 +224,15 @@ TEST(Ranks, AreCutAnewWhereTheWorkIsUneven) {
     const GrainId of_heap = id;
     for (int i = 0; i < of_heap; ++i)
         scene.bodies.add(scenes::sphere(++id, {30.0 + 2.0 * (i % 20), 50.0, 2.0 * (i / 20)}));
-    const Played one = play(scene, 1), many = play(scene, 2);
-    expect_equal(one, many);
-    ASSERT_GT(one.contacts, 200);
-    const auto moved = std::count_if(many.moved.begin(), many.moved.end(),
-                                     [of_heap](GrainId moved) { return moved <= of_heap; });
-    EXPECT_GT(moved, 50);
+    for (const int steps : {6, 30}) {
+        scene.steps = steps;
+        const Played one = play(scene, 1), many = play(scene, 2);
+        expect_equal(one, many);
+        ASSERT_GT(one.contacts, 1000) << steps;
+        const auto moved = std::count_if(many.moved.begin(), many.moved.end(),
+                                         [of_heap](GrainId moved) { return moved <= of_heap; });
+        EXPECT_GT(moved, 50) << steps;
+    }
 }
 
 // One rank has nothing.
