@@ -347,6 +347,7 @@ const std::vector<std::string>& keys_that_may_change() {
                                                   "grains.ranks",
                                                   "contact.iterations",
                                                   "contact.tolerance",
+                                                  "contact.threads",
                                                   "coupling.iterations",
                                                   "coupling.tolerance",
                                                   "fluid.multiplier_iterations",

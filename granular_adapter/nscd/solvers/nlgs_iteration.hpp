@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -74,7 +75,7 @@ class NlgsIteration {
             const std::int64_t before = result_.iterations;
             sweep_until_check();
             const SweepCheck found = check();
-            phases_.check(result_.iterations, found.error / (found.size + floor_));
+            phases_.check(result_.iterations, std::sqrt(found.error / (found.size + floor_)));
             if (looks_good(found) || result_.iterations == settings_.max_iterations)
                 look();
             else
@@ -143,21 +144,13 @@ class NlgsIteration {
     void sweep_until_check() {
         std::size_t count = 1;
         while (!check_due(++result_.iterations, settings_)) ++count;
-        if (!phases_.with_momentum()) {
-            momentum_.restart();
-            return sweep(count, LastSweep::measured);
-        }
-        for (; count > 0; --count) {
-            momentum_.extrapolate(*layout_, team_);
-            sweep(1, count == 1 ? LastSweep::measured : LastSweep::plain);
-        }
-    }
-
-    void sweep(std::size_t count, LastSweep last) {
+        if (!phases_.with_momentum()) momentum_.restart();
+        auto* const momentum = phases_.with_momentum() ? &momentum_ : nullptr;
         if (problem_.ranks)
-            pipeline_->run_in_phases(count, last, [this](std::size_t phase) { exchange(phase); });
+            pipeline_->run_in_phases(count, momentum,
+                                     [this](std::size_t phase) { exchange(phase); });
         else
-            pipeline_->run(count, last, team_);
+            pipeline_->run(count, team_, momentum);
     }
 
     /// Takes over what other ranks have done to bodies.

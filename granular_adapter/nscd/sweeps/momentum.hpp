@@ -11,6 +11,10 @@
 // = v_free + M^-1 H r, so that those of y_k belong to its impulses. An impulse of y_k may be
 // outside its cone; the next update puts it back.
 //
+// A stretch of a sweep (contact_schedule.hpp) takes its rows, and the bodies that it uses first, to
+// y_k just before it updates them, when they are in the cache. Of them the sweep before must have
+// done with all, which is what it waits for in any case (sweep_pipeline.hpp).
+//
 // Which sweeps have it: solvers/momentum_phases.hpp.
 #pragma once
 
@@ -20,7 +24,6 @@
 #include <vector>
 
 #include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
-#include "granular_adapter/nscd/sweeps/thread_team.hpp"
 
 namespace turbidite::nscd {
 
@@ -29,19 +32,41 @@ class Momentum {
  public:
     void restart() { steps_ = 0; }
 
-    /// Takes x_k of the layout, and leaves y_k there. Between two calls the layout has the same
-    /// groups, or restart() was called.
-    void extrapolate(SweepLayout<Rows>& layout, ThreadTeam& team) {
-        if (steps_ == 0) {
-            bodies_.resize(layout.bodies.size());
-            impulses_.resize(layout.rows.size());
+    /// Before sweeps over the layout, which has the same groups until restart().
+    void prepare(const SweepLayout<Rows>& layout) {
+        if (steps_ > 0) return;
+        bodies_.resize(layout.bodies.size());
+        impulses_.assign(layout.rows.size(), {});
+        find_first_uses(layout);
+    }
+
+    /// beta of the sweep after `sweeps` more.
+    double beta(std::size_t sweeps) const {
+        const auto k = static_cast<double>(steps_ + sweeps);
+        return std::min(k / (k + 2.0), 0.95);
+    }
+    void advance(std::size_t sweeps) { steps_ += sweeps; }
+
+    /// Takes x_k in the layout to y_k: the groups of a stretch, ...
+    void extrapolate_groups(SweepLayout<Rows>& layout, const Stretch& stretch, double beta) {
+        for (std::int32_t i = stretch.active.first; i < stretch.active.last; ++i)
+            advance_row(layout, i, beta);
+        for (std::int32_t i = stretch.resting.first; i < stretch.resting.last; ++i) {
+            // A group that falls asleep still has the impulses before, and with them momentum.
+            std::uint8_t& awake =
+                layout.awake[static_cast<std::size_t>(i - layout.schedule.active)];
+            if (awake != 0 || has_impulse(impulses_[static_cast<std::size_t>(i)]))
+                awake = advance_row(layout, i, beta) ? 1 : 0;
         }
-        const double k = static_cast<double>(steps_), beta = std::min(k / (k + 2.0), 0.95);
-        team.run([&](int thread) {
-            advance_part(layout.bodies, bodies_, beta, team, thread);
-            advance_part(layout.rows, impulses_, beta, team, thread);
-        });
-        ++steps_;
+    }
+    /// ... the bodies that no stretch before this one uses, ...
+    void extrapolate_bodies(SweepLayout<Rows>& layout, std::size_t stretch, double beta) {
+        const std::size_t first = stretch == 0 ? 0 : first_use_ends_[stretch - 1];
+        extrapolate_bodies(layout, first, first_use_ends_[stretch], beta);
+    }
+    /// ... or all bodies.
+    void extrapolate_bodies(SweepLayout<Rows>& layout, double beta) {
+        extrapolate_bodies(layout, 0, first_uses_.size(), beta);
     }
 
  private:
@@ -49,19 +74,17 @@ class Momentum {
     /// By row.
     using RowImpulses = decltype(impulse_lanes(std::declval<const Rows&>()));
 
-    // x + beta (x - before), which leaves what is constant as it is. In the first step `before` is
-    // of no meaning: it counts only times beta > 0.
-    static double next(double x, double before, double beta) {
-        return beta == 0.0 ? x : x + beta * (x - before);
+    // In the first step `before` is of no meaning, and beta 0.
+    static double next(double x, double before, double beta) { return x + beta * (x - before); }
+
+    void extrapolate_bodies(SweepLayout<Rows>& layout, std::size_t first, std::size_t last,
+                            double beta) {
+        for (std::size_t i = first; i < last; ++i) {
+            const std::size_t slot = first_uses_[i];
+            advance_body(layout.bodies[slot], bodies_[slot], beta);
+        }
     }
-    template <class State, class Before>
-    static void advance_part(std::vector<State>& x, std::vector<Before>& before, double beta,
-                             const ThreadTeam& team, int thread) {
-        const std::size_t end = team.part_begin(before.size(), thread + 1);
-        for (std::size_t i = team.part_begin(before.size(), thread); i < end; ++i)
-            advance(x[i], before[i], beta);
-    }
-    static void advance(Body& body, Body& before, double beta) {
+    static void advance_body(Body& body, Body& before, double beta) {
         const Body now = body;
         auto* const x = reinterpret_cast<double*>(&body);
         const auto* const old = reinterpret_cast<const double*>(&before);
@@ -69,7 +92,10 @@ class Momentum {
             x[i] = next(x[i], old[i], beta);
         before = now;
     }
-    static void advance(Rows& row, RowImpulses& before, double beta) {
+    /// Whether the group has an impulse now.
+    bool advance_row(SweepLayout<Rows>& layout, std::int32_t group, double beta) {
+        Rows& row = layout.rows[static_cast<std::size_t>(group)];
+        RowImpulses& before = impulses_[static_cast<std::size_t>(group)];
         const RowImpulses now = impulse_lanes(row);
         RowImpulses y = now;
         for (std::size_t i = 0; i < y.size(); ++i)
@@ -77,11 +103,40 @@ class Momentum {
                 y[i].v[lane] = next(now[i].v[lane], before[i].v[lane], beta);
         set_impulse_lanes(row, y);
         before = now;
+        return has_impulse(y);
+    }
+    /// Impulses are normal ones first.
+    static bool has_impulse(const RowImpulses& impulses) {
+        bool has = false;
+        for (int lane = 0; lane < Rows::width; ++lane) has |= impulses[0].v[lane] != 0.0;
+        return has;
+    }
+
+    void find_first_uses(const SweepLayout<Rows>& layout) {
+        // Bodies that do not move have slots as well.
+        std::vector<std::uint8_t> unused(layout.bodies.size());
+        for (const std::int32_t slot : layout.slots)
+            if (slot >= 0) unused[static_cast<std::size_t>(slot)] = 1;
+        first_uses_.clear(), first_use_ends_.clear();
+        for (const Stretch& stretch : layout.schedule.stretches) {
+            for (const GroupRange& range : {stretch.active, stretch.resting})
+                for (std::int32_t group = range.first; group < range.last; ++group)
+                    add_first_uses(layout.rows[static_cast<std::size_t>(group)], unused);
+            first_use_ends_.push_back(first_uses_.size());
+        }
+    }
+    void add_first_uses(const Rows& row, std::vector<std::uint8_t>& unused) {
+        for (const auto& slots : {row.a, row.b})
+            for (int lane = 0; lane < Rows::width; ++lane)
+                if (const auto slot = static_cast<std::size_t>(slots[lane]);
+                    std::exchange(unused[slot], std::uint8_t{0}) != 0)
+                    first_uses_.push_back(slot);
     }
 
     std::size_t steps_ = 0;
-    std::vector<Body> bodies_;           ///< of x_{k-1}
-    std::vector<RowImpulses> impulses_;  ///< the same
+    std::vector<Body> bodies_;                              ///< of x_{k-1}
+    std::vector<RowImpulses> impulses_;                     ///< the same
+    std::vector<std::size_t> first_uses_, first_use_ends_;  ///< slots of bodies; by stretch
 };
 
 }  // namespace turbidite::nscd

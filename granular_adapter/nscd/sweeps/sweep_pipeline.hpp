@@ -14,13 +14,11 @@
 #include <cstring>
 #include <vector>
 
+#include "granular_adapter/nscd/sweeps/momentum.hpp"
 #include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
 #include "granular_adapter/nscd/sweeps/thread_team.hpp"
 
 namespace turbidite::nscd {
-
-/// Of several sweeps.
-enum class LastSweep { plain, measured };
 
 template <class Rows>
 class SweepPipeline {
@@ -31,30 +29,34 @@ class SweepPipeline {
         : sweeps_(sweeps), layout_(layout) {}
 
     /// Runs the given number of sweeps. All of them update the active groups and the reactivated
-    /// groups at rest (`awake`). A measured last one also measures, tests all groups at rest, and
-    /// sets which of them are `awake`.
-    void run(std::size_t sweeps, LastSweep last, ThreadTeam& team) {
-        prepare_sums(last);
+    /// groups at rest (`awake`). The last one also measures, tests all groups at rest, and sets
+    /// which of them are `awake`. `momentum`: that of all of them, or null.
+    void run(std::size_t sweeps, ThreadTeam& team, Momentum<Rows>* momentum = nullptr) {
+        prepare(sweeps, momentum);
         progress_ = std::vector<Progress>(sweeps);
         team.run([&](int thread) {
             drive(team.part_begin(sweeps, thread), team.part_begin(sweeps, thread + 1));
         });
+        if (momentum) momentum->advance(sweeps);
     }
 
     /// The same, sweep after sweep, in the phases of the schedule; `after(phase)` ends each of
     /// them.
     template <class After>
-    void run_in_phases(std::size_t sweeps, LastSweep last, const After& after) {
-        prepare_sums(last);
+    void run_in_phases(std::size_t sweeps, Momentum<Rows>* momentum, const After& after) {
+        prepare(sweeps, momentum);
         const std::vector<std::size_t>& ends = layout_.schedule.phase_ends;
-        for (std::size_t sweep = 1; sweep <= sweeps; ++sweep) {
+        for (std::size_t sweep = 0; sweep < sweeps; ++sweep) {
+            // All bodies at once: another rank may use those of this one before it does.
+            if (momentum) momentum->extrapolate_bodies(layout_, momentum->beta(sweep));
             std::size_t at = 0;
             for (std::size_t phase = 0; phase < ends.size(); after(phase++))
-                for (; at < ends[phase]; ++at) visit(at, sweep == sweeps);
+                for (; at < ends[phase]; ++at) visit(at, sweep);
         }
+        if (momentum) momentum->advance(sweeps);
     }
 
-    /// Sums of the last measured sweep over active groups, and over groups at rest; of a schedule
+    /// Sums of the last sweep over active groups, and over groups at rest; of a schedule
     /// by cells one per stretch.
     const Sums& active_sums(std::size_t stretch = 0) const { return active_sums_[stretch]; }
     const Sums& resting_sums(std::size_t stretch = 0) const { return resting_sums_[stretch]; }
@@ -67,9 +69,9 @@ class SweepPipeline {
         Progress(const Progress&) {}
     };
 
-    void prepare_sums(LastSweep last) {
-        last_ = last;
-        if (last == LastSweep::plain) return;
+    void prepare(std::size_t sweeps, Momentum<Rows>* momentum) {
+        last_sweep_ = sweeps - 1, momentum_ = momentum;
+        if (momentum) momentum->prepare(layout_);
         active_sums_.assign(layout_.schedule.by_cells ? stretches().size() : 1, {});
         resting_sums_ = active_sums_;
     }
@@ -90,7 +92,8 @@ class SweepPipeline {
 
     void advance(std::size_t sweep) {
         const std::size_t at = done(sweep);
-        visit(at, sweep + 1 == progress_.size());
+        if (momentum_) momentum_->extrapolate_bodies(layout_, at, momentum_->beta(sweep));
+        visit(at, sweep);
         progress_[sweep].stretches.store(at + 1, std::memory_order_release);
     }
 
@@ -109,8 +112,10 @@ class SweepPipeline {
                                 : range.first + static_cast<std::int32_t>(found - from);
     }
 
-    void visit(std::size_t at, bool in_last_sweep) {
-        if (in_last_sweep && last_ == LastSweep::measured)
+    void visit(std::size_t at, std::size_t sweep) {
+        if (momentum_)
+            momentum_->extrapolate_groups(layout_, stretches()[at], momentum_->beta(sweep));
+        if (sweep == last_sweep_)
             measure(at);
         else
             update(at);
@@ -158,7 +163,8 @@ class SweepPipeline {
     Sweeps<Rows> sweeps_;
     SweepLayout<Rows>& layout_;
     std::vector<Progress> progress_;
-    LastSweep last_ = LastSweep::measured;
+    std::size_t last_sweep_ = 0;
+    Momentum<Rows>* momentum_ = nullptr;
     std::vector<Sums> active_sums_, resting_sums_;
 };
 

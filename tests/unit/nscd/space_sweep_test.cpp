@@ -95,7 +95,7 @@ Outcome<Rows> after_a_run(const ContactProblem& problem, Instructions instructio
     SweepLayout<Rows> layout = laid_out<Rows>(problem, w, 100);
     SweepPipeline<Rows> pipeline(sweeps<Rows>(instructions), layout);
     ThreadTeam team(threads);
-    pipeline.run(sweeps_per_run, LastSweep::measured, team);
+    pipeline.run(sweeps_per_run, team);
     Impulses r(problem.contacts.size());
     layout.collect(r);
     return {r, pipeline.active_sums()};

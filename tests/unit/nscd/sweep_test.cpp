@@ -113,7 +113,7 @@ Impulses after_runs(const ContactProblem& problem, Instructions instructions,
     wake_some(layout);
     SweepPipeline<Rows> pipeline(sweeps<Rows>(instructions), layout);
     ThreadTeam team(threads);
-    for (int i = 0; i < runs; ++i) pipeline.run(sweeps_per_run, LastSweep::measured, team);
+    for (int i = 0; i < runs; ++i) pipeline.run(sweeps_per_run, team);
     Impulses r(problem.contacts.size());
     layout.collect(r);
     return r;
@@ -385,7 +385,7 @@ void expect_state_survives_rearrangement(Kind kind) {
     SweepLayout<Rows> layout = laid_out<Rows>(problem, w, std::move(first));
     SweepPipeline<Rows> pipeline(sweeps<Rows>(best_instructions()), layout);
     ThreadTeam team(1);
-    pipeline.run(3, LastSweep::measured, team);
+    pipeline.run(3, team);
     Impulses before(pairs.size()), after(pairs.size());
     layout.collect(before);
     const std::vector<std::uint8_t> loaded = layout.loaded(pairs.size());
@@ -403,8 +403,8 @@ void expect_state_survives_rearrangement(Kind kind) {
     SweepLayout<Rows> fresh(problem, w, pairs, before, body_velocities(problem, before),
                             layout.schedule);
     SweepPipeline<Rows> other(sweeps<Rows>(best_instructions()), fresh);
-    pipeline.run(4, LastSweep::measured, team);
-    other.run(4, LastSweep::measured, team);
+    pipeline.run(4, team);
+    other.run(4, team);
     Impulses expected(pairs.size());
     layout.collect(after);
     fresh.collect(expected);
@@ -440,7 +440,7 @@ TEST(SweepPipeline, ReactivatesClosingContacts) {
     SweepPipeline<DiscRows<4>> pipeline(sweeps<DiscRows<4>>(best_instructions()), layout);
     ThreadTeam team(1);
     Impulses r(1);
-    pipeline.run(1, LastSweep::measured, team);
+    pipeline.run(1, team);
     layout.collect(r);
     EXPECT_EQ(r[0].n, 1.0);
     EXPECT_EQ(layout.awake, std::vector<std::uint8_t>{1});
