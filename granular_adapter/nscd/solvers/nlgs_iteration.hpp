@@ -228,6 +228,7 @@ class NlgsIteration {
         // Momentum knows the impulses by their place.
         if (wasted_ < layout_cost * found.all || phases_.with_momentum()) return;
         layout_->rearrange(schedule(layout_->loaded(pairs_.size())));
+        pipeline_.emplace(sweeps_, *layout_);
         wasted_ = 0.0;
         fresh_ = true;
     }

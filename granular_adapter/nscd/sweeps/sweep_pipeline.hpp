@@ -8,13 +8,19 @@
 // sweeps therefore follow each other closely and find in the cache what the first one loaded from
 // memory. Threads take consecutive sweeps. Which thread updates a group, and when, does not change
 // what is read and written: results do not depend on the number of threads.
+//
+// In the order of cells (cell_schedule.hpp) the first stretches of a sweep wait for the last ones
+// of the sweep before. There threads share the stretches of each sweep instead
+// (stretch_layers.hpp).
 #pragma once
 
 #include <atomic>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "granular_adapter/nscd/sweeps/momentum.hpp"
+#include "granular_adapter/nscd/sweeps/stretch_layers.hpp"
 #include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
 #include "granular_adapter/nscd/sweeps/thread_team.hpp"
 
@@ -33,10 +39,10 @@ class SweepPipeline {
     /// which of them are `awake`. `momentum`: that of all of them, or null.
     void run(std::size_t sweeps, ThreadTeam& team, Momentum<Rows>* momentum = nullptr) {
         prepare(sweeps, momentum);
-        progress_ = std::vector<Progress>(sweeps);
-        team.run([&](int thread) {
-            drive(team.part_begin(sweeps, thread), team.part_begin(sweeps, thread + 1));
-        });
+        if (layout_.schedule.by_cells && team.size() > 1)
+            run_in_layers(sweeps, team);
+        else
+            run_in_turns(sweeps, team);
         if (momentum) momentum->advance(sweeps);
     }
 
@@ -69,6 +75,26 @@ class SweepPipeline {
         Progress(const Progress&) {}
     };
 
+    void run_in_turns(std::size_t sweeps, ThreadTeam& team) {
+        progress_ = std::vector<Progress>(sweeps);
+        team.run([&](int thread) {
+            drive(team.part_begin(sweeps, thread), team.part_begin(sweeps, thread + 1));
+        });
+    }
+
+    void run_in_layers(std::size_t sweeps, ThreadTeam& team) {
+        if (!layers_) layers_.emplace(layout_, team.size());
+        ThreadTeam::Meeting meeting(team.size());
+        team.run([&](int thread) {
+            for (std::size_t sweep = 0; sweep < sweeps; ++sweep)
+                for (const StretchLayers::Layer& layer : layers_->layers) {
+                    for (const std::size_t at : layer[static_cast<std::size_t>(thread)])
+                        visit_with_bodies(at, sweep);
+                    meeting.wait();
+                }
+        });
+    }
+
     void prepare(std::size_t sweeps, Momentum<Rows>* momentum) {
         last_sweep_ = sweeps - 1, momentum_ = momentum;
         if (momentum) momentum->prepare(layout_);
@@ -92,8 +118,7 @@ class SweepPipeline {
 
     void advance(std::size_t sweep) {
         const std::size_t at = done(sweep);
-        if (momentum_) momentum_->extrapolate_bodies(layout_, at, momentum_->beta(sweep));
-        visit(at, sweep);
+        visit_with_bodies(at, sweep);
         progress_[sweep].stretches.store(at + 1, std::memory_order_release);
     }
 
@@ -110,6 +135,11 @@ class SweepPipeline {
             std::memchr(from, 1, static_cast<std::size_t>(range.last - range.first)));
         return found == nullptr ? range.last
                                 : range.first + static_cast<std::int32_t>(found - from);
+    }
+
+    void visit_with_bodies(std::size_t at, std::size_t sweep) {
+        if (momentum_) momentum_->extrapolate_bodies(layout_, at, momentum_->beta(sweep));
+        visit(at, sweep);
     }
 
     void visit(std::size_t at, std::size_t sweep) {
@@ -163,6 +193,7 @@ class SweepPipeline {
     Sweeps<Rows> sweeps_;
     SweepLayout<Rows>& layout_;
     std::vector<Progress> progress_;
+    std::optional<StretchLayers> layers_;
     std::size_t last_sweep_ = 0;
     Momentum<Rows>* momentum_ = nullptr;
     std::vector<Sums> active_sums_, resting_sums_;

@@ -23,6 +23,13 @@ void ThreadTeam::Patience::wait() {
         std::this_thread::yield();
 }
 
+void ThreadTeam::Meeting::wait() {
+    const std::int64_t before = arrivals_.fetch_add(1, std::memory_order_acq_rel);
+    const std::int64_t all = (before / threads_ + 1) * threads_;
+    Patience patience;
+    while (arrivals_.load(std::memory_order_acquire) < all) patience.wait();
+}
+
 ThreadTeam::ThreadTeam(int size) {
     for (int number = 1; number < size; ++number)
         threads_.emplace_back([this, number] { serve(number); });

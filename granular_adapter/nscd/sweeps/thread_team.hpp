@@ -41,6 +41,17 @@ class ThreadTeam {
         int turns_ = 0;
     };
 
+    /// Where all threads of a team wait for each other, any number of times.
+    class Meeting {
+     public:
+        explicit Meeting(int threads) : threads_(threads) {}
+        void wait();
+
+     private:
+        std::int64_t threads_;
+        std::atomic<std::int64_t> arrivals_{0};
+    };
+
  private:
     void serve(int number);
 

@@ -436,7 +436,8 @@ TEST_F(SpaceCase, PouredGrainsHaveStandInsAndARunOfTheirOwn) {
     EXPECT_EQ(pouring.population.size(), 100u);
     // The packing does not depend on who plays the run, so that it is poured once.
     std::vector<std::string> on_ranks = poured;
-    on_ranks.insert(on_ranks.end(), {"grains.adapter=standalone-nscd", "grains.ranks=2"});
+    on_ranks.insert(on_ranks.end(),
+                    {"grains.adapter=standalone-nscd", "grains.ranks=2", "contact.threads=2"});
     const std::vector<std::string> again = pouring_changes(load("", on_ranks));
     on_ranks.insert(on_ranks.end(), again.begin(), again.end());
     EXPECT_EQ(load("", on_ranks).yaml, pouring.yaml);

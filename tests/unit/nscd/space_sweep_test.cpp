@@ -4,9 +4,11 @@
 // the result is bitwise that of one contact after the other in the given order.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "granular_adapter/nscd/solvers/nlgs.hpp"
+#include "granular_adapter/nscd/sweeps/cell_schedule.hpp"
 #include "granular_adapter/nscd/sweeps/space/sphere_pack.hpp"
 #include "granular_adapter/nscd/sweeps/sweep_pipeline.hpp"
 #include "spheres.hpp"
@@ -213,23 +215,89 @@ TEST(SphereSweep, TheSumsOfASolvedProblemTellItsResidual) {
     }
 }
 
-// A whole solve, with resting groups that wake and new layouts: for any instructions and threads
-// bitwise the same, in problems large enough for several threads.
-TEST(SphereSweep, SolvesAreTheSameForAllInstructionsAndThreads) {
-    const ContactProblem problem = heap(16, true);
+/// For any instructions and threads bitwise the same, in problems large enough for several threads.
+void solves_alike(const ContactProblem& problem) {
     ASSERT_GT(problem.contacts.size(), 6000u);
     const Impulses guess(problem.contacts.size());
     SolverSettings settings;
+    settings.momentum_after = 16;
     const SolverResult reference = Nlgs(Instructions::portable).solve(problem, guess, settings);
     EXPECT_TRUE(reference.converged);
+    EXPECT_GT(reference.iterations, 24) << "with momentum";
     for (const Instructions instructions : all_instructions())
-        for (const int threads : {1, 2}) {
+        for (const int threads : {1, 2, 3}) {
             settings.threads = threads;
             const SolverResult result = Nlgs(instructions).solve(problem, guess, settings);
             EXPECT_TRUE(same_bits(result.impulses, reference.impulses));
             EXPECT_EQ(result.iterations, reference.iterations);
             EXPECT_EQ(result.residual, reference.residual);
         }
+}
+
+// A whole solve, with resting groups that wake and new layouts.
+TEST(SphereSweep, SolvesAreTheSameForAllInstructionsAndThreads) {
+    solves_alike(heap(16, true));
+}
+
+/// A heap in cells of 3 x 3 x 3 bodies, in the order of their parities.
+ContactProblem heap_in_cells(int n) {
+    ContactProblem problem = heap(n, true);
+    const auto place = [n](const Contact& contact) {
+        const int x = contact.b % n / 3, y = contact.b / n % n / 3, z = contact.b / (n * n) / 3;
+        const int parity = (x & 1) << 2 | (z & 1) << 1 | (y & 1);
+        return static_cast<std::uint64_t>(((parity * n + x) * n + z) * n + y);
+    };
+    std::stable_sort(
+        problem.contacts.begin(), problem.contacts.end(),
+        [&](const Contact& one, const Contact& two) { return place(one) < place(two); });
+    ContactCells& cells = problem.cells;
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+        if (cells.empty() || place(problem.contacts[k]) != cells.place.back()) {
+            cells.place.push_back(place(problem.contacts[k]));
+            cells.end.push_back(0);
+        }
+        cells.end.back() = static_cast<std::int32_t>(k) + 1;
+    }
+    return problem;
+}
+
+TEST(SphereSweep, SolvesByCellsAreTheSameForAllInstructionsAndThreads) {
+    solves_alike(heap_in_cells(16));
+}
+
+// Any two stretches that share a body are in the order of the schedule, and every thread has work.
+TEST(SphereSweep, LayersKeepTheOrderOfStretchesThatShareABody) {
+    const ContactProblem problem = heap_in_cells(10);
+    const SphereOperator w(problem);
+    const std::vector<MovedPair> pairs = moved_pairs(problem, w);
+    const std::vector<std::uint8_t> active(pairs.size(), 1);
+    const SweepLayout<SphereRows<4>> layout(
+        problem, w, pairs, Impulses(pairs.size()), problem.free,
+        make_cell_schedule(pairs, active, w.bodies().size(), {}, problem.cells));
+    const StretchLayers laid(layout, 2);
+
+    std::vector<std::size_t> layer_of(layout.schedule.stretches.size());
+    std::size_t found = 0, with_work_for_two = 0;
+    for (std::size_t layer = 0; layer < laid.layers.size(); ++layer) {
+        for (const std::vector<std::size_t>& part : laid.layers[layer])
+            for (const std::size_t s : part) layer_of[s] = layer, ++found;
+        with_work_for_two += !laid.layers[layer][0].empty() && !laid.layers[layer][1].empty();
+    }
+    EXPECT_EQ(found, layer_of.size());
+    EXPECT_LE(laid.layers.size(), 8u) << "parities";
+    EXPECT_EQ(with_work_for_two, laid.layers.size());
+    std::vector<std::int64_t> last(w.bodies().size(), -1);  // layer, by body
+    for (std::size_t s = 0; s < layer_of.size(); ++s) {
+        const GroupRange groups = layout.schedule.stretches[s].active;
+        std::vector<std::int32_t> bodies;
+        for (std::int32_t i = 4 * groups.first; i < 4 * groups.last; ++i)
+            if (const std::int32_t k = layout.schedule.lanes[static_cast<std::size_t>(i)]; k >= 0)
+                for (const std::int32_t body : {pairs[k].a, pairs[k].b})
+                    if (body >= 0) bodies.push_back(body);
+        for (const std::int32_t body : bodies)
+            EXPECT_LT(last[body], static_cast<std::int64_t>(layer_of[s])) << s;
+        for (const std::int32_t body : bodies) last[body] = static_cast<std::int64_t>(layer_of[s]);
+    }
 }
 
 }  // namespace

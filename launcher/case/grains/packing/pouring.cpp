@@ -150,8 +150,9 @@ std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
     changes.push_back("grains.generator=random");
     // Whatever plays the run: pouring needs no host code.
     changes.push_back("grains.adapter=standalone-nscd");
-    // Nor does the number of ranks: spheres have the same digits on any.
+    // Nor do ranks and threads count: spheres have the same digits on any number.
     changes.push_back("grains.ranks=1");
+    changes.push_back("contact.threads=1");
     changes.push_back("grains.script=~");
     // Walls inside would cut grains that begin at random places, and those that move would stir
     // them.
