@@ -114,11 +114,11 @@ TEST(SpaceStatics, AColumnCarriesItsWeight) {
     EXPECT_EQ(engine.points().size(), 5u);
 }
 
-double median_speed(const Bodies& bodies) {
+std::vector<double> sorted_speeds(const Bodies& bodies) {
     std::vector<double> speeds;
     for (const Twist& twist : bodies.twist) speeds.push_back(norm(twist.velocity));
     std::sort(speeds.begin(), speeds.end());
-    return speeds[speeds.size() / 2];
+    return speeds;
 }
 
 // A few hundred spheres fall into a box and come to rest, apart from a few that roll about on the
@@ -138,8 +138,10 @@ TEST(SpaceStatics, APackingComesToRest) {
         deepest = std::max(deepest, report.max_penetration);
     }
     EXPECT_GT(fastest, 10.0) << "it fell";
-    EXPECT_LT(scenes::kinetic_energy(engine.bodies()), 1e-3 * fastest);
-    EXPECT_LT(median_speed(engine.bodies()), 5e-4) << "a twentieth of g dt";
+    const std::vector<double> speeds = sorted_speeds(engine.bodies());
+    EXPECT_LT(speeds[speeds.size() / 2], 5e-4) << "a twentieth of g dt";
+    EXPECT_LT(speeds[speeds.size() * 9 / 10], 5e-3) << "half of g dt";
+    EXPECT_LT(scenes::kinetic_energy(engine.bodies()), 5e-3 * fastest) << "of those that roll";
     EXPECT_LT(deepest, 1e-3);
     double pressed = 0.0, weight = 0.0;
     for (std::size_t k = 0; k < engine.points().size(); ++k) {
