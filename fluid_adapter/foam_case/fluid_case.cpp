@@ -184,7 +184,7 @@ bool is_cut_by_rows(const Settings& settings) {
 
 /// `simple` sorts the cells by coordinates rotated by `delta`. The default is so large that columns
 /// of more than a thousand cells would be split; it must only be non-zero.
-std::string decomposition(const Settings& settings, const FluidDomain& domain) {
+std::string decomposition(const Settings& settings) {
     const std::int64_t ranks = settings.integer("fluid.ranks");
     const std::string& kind = settings.text("fluid.decomposition");
     if (kind != "rows" && kind != "columns")
@@ -247,11 +247,10 @@ std::string transport_properties(const RunValues& run) {
 }  // namespace
 
 void write_decomposition(const Settings& settings, const std::filesystem::path& directory) {
-    const FluidDomain domain = fluid_domain(settings);
-    write(directory, "system", "decomposeParDict", "dictionary", decomposition(settings, domain));
+    write(directory, "system", "decomposeParDict", "dictionary", decomposition(settings));
     if (is_cut_by_rows(settings))
         write(directory, "constant", "cellDecomposition", "labelList",
-              rank_of_cells(settings, domain));
+              rank_of_cells(settings, fluid_domain(settings)));
 }
 
 void extend_fluid_case(const Settings& settings, const std::filesystem::path& directory) {
