@@ -130,18 +130,6 @@ def make_page(run):
     return page
 
 
-def write_pictures(page, folder):
-    try:
-        folder.mkdir(exist_ok=True)
-    except OSError as error:
-        print(f'cannot write {folder}: {error.strerror}', file=sys.stderr)
-        return False
-    for old in folder.glob('*.png'):  # of a report that had other figures
-        if old.stem not in page.pictures:
-            old.unlink()
-    return all(write_whole(folder / f'{name}.png', png) for name, png in page.pictures.items())
-
-
 def main(arguments):
     if len(arguments) != 2 or not Path(arguments[1]).is_dir():
         print('usage: report.py RUN   (a run folder of `turbidite run`)', file=sys.stderr)
@@ -149,7 +137,7 @@ def main(arguments):
     run = run_data.load_run(arguments[1])
     page = make_page(run)
     whole = write_whole(run.folder / 'report.html', page.text())
-    return 0 if whole and write_pictures(page, run.folder / 'pictures') else 4
+    return 0 if whole and page.write_pictures(run.folder / 'pictures') else 4
 
 
 if __name__ == '__main__':

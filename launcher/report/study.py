@@ -243,10 +243,8 @@ def main(arguments):
     page = make_page(record['study'], runs, shlex.join(record.get('command', [])))
     written = [FIGURE_SETS[figures](page, folder, runs)] if figures in FIGURE_SETS else []
     working.end()
-    pictures = folder / 'pictures'
-    pictures.mkdir(exist_ok=True)
-    written += [write_whole(pictures / f'{name}.png', content) for name, content in page.pictures.items()]
-    written += [write_whole(folder / 'study.csv', as_csv(runs)),
+    written += [page.write_pictures(folder / 'pictures'),
+                write_whole(folder / 'study.csv', as_csv(runs)),
                 write_whole(folder / 'study.html', page.text())]
     return 0 if all(written) else 4
 

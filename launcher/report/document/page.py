@@ -129,6 +129,19 @@ class Page:
                 f'<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>'
                 + body + '</body></html>\n')
 
+    def write_pictures(self, folder):
+        """Writes every picture as a file, and removes those of a page that had others. Whether all could be written;
+        what could not is told on stderr."""
+        try:
+            folder.mkdir(exist_ok=True)
+        except OSError as error:
+            print(f'cannot write {folder}: {error.strerror}', file=sys.stderr)
+            return False
+        for old in folder.glob('*.png'):
+            if old.stem not in self.pictures:
+                old.unlink()
+        return all([write_whole(folder / f'{name}.png', png) for name, png in self.pictures.items()])
+
 
 def address_of(path):
     """Of a file beside the page, for a link."""

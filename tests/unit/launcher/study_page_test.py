@@ -69,6 +69,14 @@ class Page(RunFolderTest):
         order = [body.index(part) for part in parts if part != 'All numbers of sweep']
         self.assertEqual(order, sorted(order))
 
+    def test_pictures_are_those_of_the_page(self):
+        self.write_study()
+        self.write('pictures/of-a-part-that-is-gone.png', '')
+        self.page()
+        pictures = [path.name for path in (self.folder / 'pictures').iterdir()]
+        self.assertGreater(len(pictures), 1)
+        self.assertNotIn('of-a-part-that-is-gone.png', pictures)
+
     def test_runs_that_are_not_done_are_in_no_mean(self):
         self.write_study({'sweep/friction-0.1-seed-2': 'interrupted', 'other/friction-0.1-seed-1': 'failed'})
         page = self.page()
