@@ -336,7 +336,7 @@ class InSpace(SceneTest):
                 self.assertAlmostEqual(contact.shear_force.dot(way), ball.state.mass * G * (rate - math.sin(alpha)),
                                        delta=1e-6 * ball.state.mass)
 
-    def test_a_pile_carries_its_weight_to_the_floor(self):
+    def test_a_pile_carries_its_weight_to_the_floor_and_the_walls(self):
         import random
         draw = random.Random(5)
         material(0.4)
@@ -344,16 +344,18 @@ class InSpace(SceneTest):
             spheres([(0.6 + 1.1 * (k % 4) + draw.uniform(-0.04, 0.04), 0.6 + 1.1 * (k // 16),
                       0.6 + 1.1 * (k // 4 % 4) + draw.uniform(-0.04, 0.04))], draw.uniform(0.45, 0.5))
         base = floor()
-        for axis in (0, 2):
-            O.bodies.append(utils.wall(0, axis, sense=1))
-            O.bodies.append(utils.wall(4.6, axis, sense=-1))
+        walls = [O.bodies.append(utils.wall(place, axis, sense=sense))
+                 for axis in (0, 2) for place, sense in ((0, 1), (4.6, -1))]
         start(tolerance=1e-5, iterations=5000)
         O.run(8000, True)
         weight = sum(body.state.mass for body in O.bodies) * G
         speeds = sorted(body.state.vel.norm() for body in O.bodies)
         self.assertLess(speeds[len(speeds) // 2], 0.02)  # single spheres on top go on rolling
         self.assertGreater(turbidite_contact.report()['contacts'], 60)
-        self.assertAlmostEqual(-turbidite_contact.contact_force(base)[1] / weight, 1.0, delta=0.1)
+        lifted = [-turbidite_contact.contact_force(body)[1] / weight for body in (base, *walls)]
+        self.assertAlmostEqual(sum(lifted), 1.0, delta=0.01)
+        self.assertGreater(lifted[0], 0.8)  # friction at the walls, in either direction, is the rest
+        self.assertGreater(max(map(abs, lifted[1:])), 1e-3)
         place, before = states(), O.iter
         O.saveTmp('there')
         O.run(50, True)
