@@ -229,6 +229,7 @@ class NlgsIteration {
         if (wasted_ < layout_cost * found.all || phases_.with_momentum()) return;
         layout_->rearrange(schedule(layout_->loaded(pairs_.size())));
         pipeline_.emplace(sweeps_, *layout_);
+        momentum_ = {};
         wasted_ = 0.0;
         fresh_ = true;
     }

@@ -12,8 +12,8 @@
 // outside its cone; the next update puts it back.
 //
 // A stretch of a sweep (contact_schedule.hpp) takes its rows, and the bodies that it uses first, to
-// y_k just before it updates them, when they are in the cache. Of them the sweep before must have
-// done with all, which is what it waits for in any case (sweep_pipeline.hpp).
+// y_k just before it updates them, when they are in the cache. The sweep before must have finished
+// with all of them, which a stretch waits for in any case (sweep_pipeline.hpp).
 //
 // Which sweeps have it: solvers/momentum_phases.hpp.
 #pragma once
@@ -32,12 +32,12 @@ class Momentum {
  public:
     void restart() { steps_ = 0; }
 
-    /// Before sweeps over the layout, which has the same groups until restart().
+    /// Before sweeps over the layout, whose groups are always the same.
     void prepare(const SweepLayout<Rows>& layout) {
         if (steps_ > 0) return;
         bodies_.resize(layout.bodies.size());
         impulses_.assign(layout.rows.size(), {});
-        find_first_uses(layout);
+        if (first_use_ends_.empty()) find_first_uses(layout);
     }
 
     /// beta of the sweep after `sweeps` more.
@@ -117,20 +117,12 @@ class Momentum {
         std::vector<std::uint8_t> unused(layout.bodies.size());
         for (const std::int32_t slot : layout.slots)
             if (slot >= 0) unused[static_cast<std::size_t>(slot)] = 1;
-        first_uses_.clear(), first_use_ends_.clear();
         for (const Stretch& stretch : layout.schedule.stretches) {
-            for (const GroupRange& range : {stretch.active, stretch.resting})
-                for (std::int32_t group = range.first; group < range.last; ++group)
-                    add_first_uses(layout.rows[static_cast<std::size_t>(group)], unused);
+            layout.each_slot(stretch, [&](std::size_t slot) {
+                if (std::exchange(unused[slot], std::uint8_t{0}) != 0) first_uses_.push_back(slot);
+            });
             first_use_ends_.push_back(first_uses_.size());
         }
-    }
-    void add_first_uses(const Rows& row, std::vector<std::uint8_t>& unused) {
-        for (const auto& slots : {row.a, row.b})
-            for (int lane = 0; lane < Rows::width; ++lane)
-                if (const auto slot = static_cast<std::size_t>(slots[lane]);
-                    std::exchange(unused[slot], std::uint8_t{0}) != 0)
-                    first_uses_.push_back(slot);
     }
 
     std::size_t steps_ = 0;

@@ -25,9 +25,9 @@ struct StretchLayers {
         std::vector<std::size_t> next(layout.bodies.size());  // layer that a body may be in
         for (std::size_t s = 0; s < stretches.size(); ++s) {
             std::size_t layer = 0;
-            each_slot(layout, stretches[s],
-                      [&](std::size_t slot) { layer = std::max(layer, next[slot]); });
-            each_slot(layout, stretches[s], [&](std::size_t slot) { next[slot] = layer + 1; });
+            layout.each_slot(stretches[s],
+                             [&](std::size_t slot) { layer = std::max(layer, next[slot]); });
+            layout.each_slot(stretches[s], [&](std::size_t slot) { next[slot] = layer + 1; });
             if (layer == in_layer.size()) in_layer.emplace_back();
             in_layer[layer].push_back(s);
         }
@@ -36,19 +36,6 @@ struct StretchLayers {
     }
 
  private:
-    template <class Rows, class Visit>
-    static void each_slot(const SweepLayout<Rows>& layout, const Stretch& stretch,
-                          const Visit& visit) {
-        for (const GroupRange& range : {stretch.active, stretch.resting})
-            for (std::int32_t group = range.first; group < range.last; ++group) {
-                const Rows& row = layout.rows[static_cast<std::size_t>(group)];
-                for (int lane = 0; lane < Rows::width; ++lane) {
-                    visit(static_cast<std::size_t>(row.a[lane]));
-                    visit(static_cast<std::size_t>(row.b[lane]));
-                }
-            }
-    }
-
     // Groups at rest are only looked at.
     static std::int64_t work(const Stretch& stretch) {
         const auto groups = [](const GroupRange& range) { return range.last - range.first; };

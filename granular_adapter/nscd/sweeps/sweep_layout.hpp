@@ -160,6 +160,19 @@ struct SweepLayout {
         }
     }
 
+    /// Calls visit(slot) for both bodies of all lanes of a stretch.
+    template <class Visit>
+    void each_slot(const Stretch& stretch, const Visit& visit) const {
+        for (const GroupRange& range : {stretch.active, stretch.resting})
+            for (std::int32_t group = range.first; group < range.last; ++group) {
+                const Rows& row = rows[static_cast<std::size_t>(group)];
+                for (int lane = 0; lane < Rows::width; ++lane) {
+                    visit(static_cast<std::size_t>(row.a[lane]));
+                    visit(static_cast<std::size_t>(row.b[lane]));
+                }
+            }
+    }
+
     void collect(Impulses& r) const {
         each_contact([&](std::size_t k, const Rows& row, int lane) { r[k] = impulse(row, lane); });
         if constexpr (requires(const Rows& row) { moment(row, 0); }) {
