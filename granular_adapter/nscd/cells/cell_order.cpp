@@ -10,6 +10,25 @@ namespace {
 
 constexpr std::size_t parities = 9;  // with the class of large bodies
 
+using Place = CellOrder::Place;
+
+/// Ids before places in storage. Only points of one body at two images of a wall may be equal but
+/// for their numbers, which follow the order of the walls on every rank.
+bool is_before(const Place& p, const Place& q) {
+    return std::tie(p.cell, p.layer, p.wall, p.first, p.second, p.feature, p.point) <
+           std::tie(q.cell, q.layer, q.wall, q.first, q.second, q.feature, q.point);
+}
+
+/// Each thread sorts a part; no two places are equal, so that parts do not matter.
+void sort(std::vector<Place>& places, ThreadTeam& team) {
+    const auto begin_of = [&](int part) {
+        return places.begin() + static_cast<std::ptrdiff_t>(team.part_begin(places.size(), part));
+    };
+    team.run([&](int thread) { std::sort(begin_of(thread), begin_of(thread + 1), is_before); });
+    for (int part = 1; part < team.size(); ++part)
+        std::inplace_merge(places.begin(), begin_of(part), begin_of(part + 1), is_before);
+}
+
 }  // namespace
 
 CellOrder::CellOrder(const CellScene& scene)
@@ -45,7 +64,7 @@ double CellOrder::layer(const ContactPoint& point) const {
     return std::floor((dot(down_, centre) + dot(down_, point.arm_b)) / scene_.band);
 }
 
-void CellOrder::add(const ContactPoint& point) {
+CellOrder::Place CellOrder::place(const ContactPoint& point) const {
     const auto id = [this](std::int32_t body) {
         return scene_.bodies.id[static_cast<std::size_t>(body)];
     };
@@ -53,18 +72,22 @@ void CellOrder::add(const ContactPoint& point) {
     const GrainId first =
         point.wall < 0 ? id(point.a) : scene_.walls[static_cast<std::size_t>(point.wall)].key;
     const Cell own = cell(point);
-    phases_[by_parity_ ? static_cast<std::size_t>(own.parity()) : 0].push_back(
-        {own.place(), layer(point), first, id(point.b), point.wall >= 0 ? 1 : 0, point.feature,
-         count_++});
+    return {own.place(),
+            layer(point),
+            first,
+            id(point.b),
+            point.wall >= 0 ? 1 : 0,
+            point.feature,
+            by_parity_ ? own.parity() : 0,
+            0};
 }
 
-void CellOrder::take_phase(std::vector<Place>& places, std::vector<std::int32_t>& order) {
-    std::sort(places.begin(), places.end(), [](const Place& p, const Place& q) {
-        // Ids before places in storage. Only points of one body at two images of a wall may be
-        // equal but for their numbers, which follow the order of the walls on every rank.
-        return std::tie(p.cell, p.layer, p.wall, p.first, p.second, p.feature, p.point) <
-               std::tie(q.cell, q.layer, q.wall, q.first, q.second, q.feature, q.point);
-    });
+void CellOrder::add(Place place) {
+    place.point = count_++;
+    phases_[static_cast<std::size_t>(place.phase)].push_back(place);
+}
+
+void CellOrder::take_phase(const std::vector<Place>& places, std::vector<std::int32_t>& order) {
     for (std::size_t i = 0; i < places.size(); ++i) {
         order.push_back(places[i].point);
         // The cell ends where the next contact is of another one.
@@ -72,15 +95,18 @@ void CellOrder::take_phase(std::vector<Place>& places, std::vector<std::int32_t>
         cells_.place.push_back(places[i].cell);
         cells_.end.push_back(static_cast<std::int32_t>(order.size()));
     }
-    places.clear();
     phase_ends_.push_back(cells_.size());
 }
 
-std::vector<std::int32_t> CellOrder::take() {
+std::vector<std::int32_t> CellOrder::take(ThreadTeam& team) {
     std::vector<std::int32_t> order;
     order.reserve(static_cast<std::size_t>(count_));
     cells_ = {}, phase_ends_ = {};
-    for (std::vector<Place>& places : phases_) take_phase(places, order);
+    for (std::vector<Place>& places : phases_) {
+        sort(places, team);
+        take_phase(places, order);
+        places.clear();
+    }
     count_ = 0;
     return order;
 }

@@ -26,6 +26,7 @@
 #include "granular_adapter/nscd/cells/parity_grid.hpp"
 #include "granular_adapter/nscd/detection/contact_point.hpp"
 #include "granular_adapter/nscd/problem/contact_cells.hpp"
+#include "granular_adapter/nscd/threads/thread_team.hpp"
 
 namespace turbidite::nscd {
 
@@ -46,10 +47,21 @@ class CellOrder {
     /// On several ranks: contacts in phases, by cells that are the same for all.
     CellOrder(const CellScene& scene, const ParityGrid& grid);
 
-    void add(const ContactPoint& point);
+    /// What decides where a point comes.
+    struct Place {
+        std::uint64_t cell;  ///< place of the cell in the order
+        double layer;        ///< an integer, increasing downwards
+        GrainId first, second;
+        std::int32_t wall, feature;
+        std::int32_t phase;
+        std::int32_t point;  ///< index in the order of detection
+    };
+    Place place(const ContactPoint& point) const;
 
-    /// Indices of the points added so far, in order.
-    std::vector<std::int32_t> take();
+    void add(Place place);
+
+    /// Indices of the points added so far, in order. The team shares the work.
+    std::vector<std::int32_t> take(ThreadTeam& team);
 
     /// The cells of the points taken last, and the number of them up to the end of each phase.
     ContactCells take_cells() { return std::move(cells_); }
@@ -59,17 +71,9 @@ class CellOrder {
     Cell cell(const ContactPoint& point) const;
 
  private:
-    struct Place {
-        std::uint64_t cell;  ///< place of the cell in the order
-        double layer;        ///< an integer, increasing downwards
-        GrainId first, second;
-        std::int32_t wall, feature;
-        std::int32_t point;
-    };
-
     double layer(const ContactPoint& point) const;
     bool is_large(std::int32_t body) const;
-    void take_phase(std::vector<Place>& places, std::vector<std::int32_t>& order);
+    void take_phase(const std::vector<Place>& places, std::vector<std::int32_t>& order);
 
     CellScene scene_;
     ParityGrid grid_;

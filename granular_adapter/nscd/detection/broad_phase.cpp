@@ -71,9 +71,13 @@ class Level {
     Level(std::vector<std::int32_t> members, const std::vector<Vec3>& x, double cell,
           const PeriodicBox& box);
 
-    /// Calls visit(j, place of j) for all members in cells that touch the cube x +- reach.
+    /// Calls visit(j, place of j) for the members in cells that touch the cube x +- reach, except
+    /// the first `left_out` ones.
     template <class Visit>
-    void near(const Vec3& x, double reach, Visit&& visit) const;
+    void near(const Vec3& x, double reach, std::int32_t left_out, Visit&& visit) const;
+
+    /// Cell by cell.
+    const std::vector<std::int32_t>& members() const { return members_; }
 
  private:
     void lay_axes(const std::vector<Vec3>& x, double cell, const PeriodicBox& box);
@@ -128,7 +132,7 @@ void Level::sort_members(const std::vector<Vec3>& x) {
 
 // The cells of a row are contiguous in memory, and so are their members.
 template <class Visit>
-void Level::near(const Vec3& x, double reach, Visit&& visit) const {
+void Level::near(const Vec3& x, double reach, std::int32_t left_out, Visit&& visit) const {
     std::array<CellRange, 3> range;
     for (int axis = 0; axis < 3; ++axis)
         range[axis] = axes_[axis].range(x[axis] - reach, x[axis] + reach);
@@ -136,7 +140,8 @@ void Level::near(const Vec3& x, double reach, Visit&& visit) const {
     const std::int64_t end = range[0].first + range[0].count;
     const std::int64_t inside = std::min(end, axes_[0].n), wrapped = end - inside;
     const auto row = [&](std::int64_t first, std::int64_t last) {
-        for (std::int32_t k = start_[first]; k < start_[last]; ++k) visit(members_[k], places_[k]);
+        for (std::int32_t k = std::max(start_[first], left_out); k < start_[last]; ++k)
+            visit(members_[k], places_[k]);
     };
     for (std::int64_t kz = 0; kz < range[2].count; ++kz)
         for (std::int64_t ky = 0; ky < range[1].count; ++ky) {
@@ -175,31 +180,87 @@ std::map<int, SizedLevel> build_levels(const std::vector<Vec3>& x, const std::ve
     return levels;
 }
 
-}  // namespace
+/// Bodies in their cells.
+class CellLists {
+ public:
+    CellLists(const std::vector<Vec3>& x, const std::vector<double>& radii, double alert,
+              const PeriodicBox& box)
+        : x_(x),
+          radii_(radii),
+          alert_(alert),
+          box_(box),
+          levels_(build_levels(x, radii, alert, box)) {}
 
-std::vector<Pair> candidate_pairs(const std::vector<Vec3>& x, const std::vector<double>& radii,
-                                  double alert, const PeriodicBox& box) {
-    std::vector<Pair> pairs;
-    if (x.empty()) return pairs;
-    const auto levels = build_levels(x, radii, alert, box);
-    const double largest = levels.begin()->second.largest;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(x.size()); ++i) {
-        const int own = level_of(radii[i], largest);
-        for (const auto& [level, sized] : levels) {
+    /// A body that looks for its pairs. Within a level both bodies would find the pair: one of them
+    /// leaves out the first members of the level, or those with a lower index.
+    struct Searcher {
+        std::int32_t body;
+        std::int32_t left_out = 0;
+    };
+    std::vector<Searcher> searchers(PairOrder order) const {
+        std::vector<Searcher> result;
+        result.reserve(x_.size());
+        if (order == PairOrder::by_body)
+            for (std::size_t i = 0; i < x_.size(); ++i)
+                result.push_back({static_cast<std::int32_t>(i)});
+        else
+            for (const auto& [level, sized] : levels_)
+                for (std::int32_t before = 0; const std::int32_t i : sized.grid.members())
+                    result.push_back({i, ++before});
+        return result;
+    }
+
+    /// Adds the pairs that a body finds.
+    void search(const Searcher& searcher, std::vector<Pair>& pairs) const {
+        const std::int32_t i = searcher.body;
+        const bool by_index = searcher.left_out == 0;
+        const int own = level_of(radii_[i], levels_.begin()->second.largest);
+        for (const auto& [level, sized] : levels_) {
             if (level > own) break;  // smaller bodies search for this one
-            sized.grid.near(x[i], radii[i] + sized.largest + alert,
+            sized.grid.near(x_[i], radii_[i] + sized.largest + alert_,
+                            level == own ? searcher.left_out : 0,
                             [&](std::int32_t j, const Vec3& place) {
-                                // Within a level both bodies find the pair. Between levels only the
-                                // smaller one searches.
-                                if (level == own && j <= i) return;
-                                const Vec3 d = box.minimum_image(place - x[i]);
-                                const double reach = radii[i] + radii[j] + alert;
+                                if (level == own && by_index && j <= i) return;
+                                const Vec3 d = box_.minimum_image(place - x_[i]);
+                                const double reach = radii_[i] + radii_[j] + alert_;
                                 if (dot(d, d) < reach * reach)
                                     pairs.push_back({std::min(i, j), std::max(i, j)});
                             });
         }
     }
-    return pairs;
+
+ private:
+    const std::vector<Vec3>& x_;
+    const std::vector<double>& radii_;
+    double alert_;
+    const PeriodicBox& box_;
+    std::map<int, SizedLevel> levels_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Pair>> candidate_pairs(const std::vector<Vec3>& x,
+                                               const std::vector<double>& radii, double alert,
+                                               const PeriodicBox& box, PairOrder order,
+                                               ThreadTeam& team) {
+    std::vector<std::vector<Pair>> parts(static_cast<std::size_t>(team.size()));
+    if (x.empty()) return parts;
+    const CellLists lists(x, radii, alert, box);
+    const std::vector<CellLists::Searcher> searchers = lists.searchers(order);
+    team.run([&](int thread) {
+        std::vector<Pair> pairs;
+        const std::size_t end = team.part_begin(searchers.size(), thread + 1);
+        for (std::size_t k = team.part_begin(searchers.size(), thread); k < end; ++k)
+            lists.search(searchers[k], pairs);
+        parts[static_cast<std::size_t>(thread)] = std::move(pairs);
+    });
+    return parts;
+}
+
+std::vector<Pair> candidate_pairs(const std::vector<Vec3>& x, const std::vector<double>& radii,
+                                  double alert, const PeriodicBox& box) {
+    ThreadTeam alone(1);
+    return std::move(candidate_pairs(x, radii, alert, box, PairOrder::by_body, alone).front());
 }
 
 void check_periods(const std::vector<double>& radii, const std::vector<std::uint8_t>& fixed,

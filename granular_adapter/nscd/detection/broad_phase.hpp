@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "granular_adapter/nscd/problem/periodic_box.hpp"
+#include "granular_adapter/nscd/threads/thread_team.hpp"
 
 namespace turbidite::nscd {
 
@@ -24,6 +25,17 @@ struct Pair {
 std::vector<Pair> candidate_pairs(const std::vector<Vec3>& positions,
                                   const std::vector<double>& radii, double alert,
                                   const PeriodicBox& box);
+
+/// In which order bodies look for their pairs: as they are stored, or cell by cell, where those
+/// that look next to each other read the same memory.
+enum class PairOrder { by_body, by_cell };
+
+/// The same pairs in one part per thread, which together are in that order; candidate_pairs above
+/// has them by body.
+std::vector<std::vector<Pair>> candidate_pairs(const std::vector<Vec3>& positions,
+                                               const std::vector<double>& radii, double alert,
+                                               const PeriodicBox& box, PairOrder order,
+                                               ThreadTeam& team);
 
 /// Throws std::invalid_argument if the period of an axis is so short that two bodies, not both
 /// fixed, could touch on both sides, or come within the range of the law [m] there: the minimum

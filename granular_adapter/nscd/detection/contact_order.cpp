@@ -89,18 +89,22 @@ TopDownOrder::TopDownOrder(const Bodies& bodies, const Vec3& gravity, double ban
     if (sorts_) down_ = (1.0 / weight) * gravity;
 }
 
-void TopDownOrder::add(const ContactPoint& point) {
-    const auto index = static_cast<std::int32_t>(places_.size());
+TopDownOrder::Place TopDownOrder::place(const ContactPoint& point) const {
     double layer = 0.0;
     if (sorts_) {
         const Vec3& centre = bodies_.position[static_cast<std::size_t>(point.b)];
         // Depth of the point along gravity, in bands; from b, since a may be a wall.
         layer = std::floor((dot(down_, centre) + dot(down_, point.arm_b)) / band_);
     }
-    places_.push_back({layer, index, point.a, point.b});
+    return {layer, point.a, point.b, 0};
 }
 
-std::vector<std::int32_t> TopDownOrder::take() {
+void TopDownOrder::add(Place place) {
+    place.point = static_cast<std::int32_t>(places_.size());
+    places_.push_back(place);
+}
+
+std::vector<std::int32_t> TopDownOrder::take(ThreadTeam&) {
     std::vector<std::int32_t> order;
     order.reserve(places_.size());
     if (sorts_ && !places_.empty()) sort_by_layer(places_);

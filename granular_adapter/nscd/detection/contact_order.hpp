@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "granular_adapter/nscd/detection/contact_point.hpp"
+#include "granular_adapter/nscd/threads/thread_team.hpp"
 
 namespace turbidite::nscd {
 
@@ -21,16 +22,18 @@ class TopDownOrder {
     /// Keeps a reference to the bodies. Heights that differ by less than `band` [m] count as equal.
     TopDownOrder(const Bodies& bodies, const Vec3& gravity, double band);
 
-    void add(const ContactPoint& point);
-
-    /// Indices of the points added so far, in order.
-    std::vector<std::int32_t> take();
-
+    /// What decides where a point comes.
     struct Place {
         double layer;        ///< an integer, increasing downwards
-        std::int32_t point;  ///< index in the order of detection
         std::int32_t a, b;   ///< bodies of the contact
+        std::int32_t point;  ///< index in the order of detection
     };
+    Place place(const ContactPoint& point) const;
+
+    void add(Place place);
+
+    /// Indices of the points added so far, in order.
+    std::vector<std::int32_t> take(ThreadTeam&);
 
  private:
     const Bodies& bodies_;
@@ -43,11 +46,13 @@ class TopDownOrder {
 /// The points in an order that has none so far (TopDownOrder, CellOrder). Where points are cheaper
 /// to find again than to move, add them to the order one by one instead.
 template <class Order>
-std::vector<ContactPoint> sorted_by(Order& order, const std::vector<ContactPoint>& points) {
-    for (const ContactPoint& point : points) order.add(point);
+std::vector<ContactPoint> sorted_by(Order& order, const std::vector<ContactPoint>& points,
+                                    ThreadTeam& team) {
+    for (const ContactPoint& point : points) order.add(order.place(point));
     std::vector<ContactPoint> sorted;
     sorted.reserve(points.size());
-    for (const std::int32_t i : order.take()) sorted.push_back(points[static_cast<std::size_t>(i)]);
+    for (const std::int32_t i : order.take(team))
+        sorted.push_back(points[static_cast<std::size_t>(i)]);
     return sorted;
 }
 

@@ -5,6 +5,7 @@
 // (contact_order.hpp, cells/cell_order.hpp).
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "granular_adapter/nscd/detection/broad_phase.hpp"
@@ -30,9 +31,14 @@ class ParityGrid;
 class Detection {
  public:
     /// Throws std::invalid_argument naming the shapes for which there is no contact detection.
+    /// Results do not depend on the number of threads.
     Detection(const ShapeTable& shapes, const PeriodicBox& box,
-              ContactOrder order = ContactOrder::top_down)
-        : narrow_(shapes), box_(box), order_(order) {}
+              ContactOrder order = ContactOrder::top_down, int threads = 1)
+        : narrow_(shapes),
+          box_(box),
+          order_(order),
+          team_(std::make_unique<ThreadTeam>(threads)),
+          alone_(std::make_unique<ThreadTeam>(1)) {}
 
     bool has_corners() const { return narrow_.has_corners(); }
     const NarrowPhase& narrow_phase() const { return narrow_; }
@@ -68,14 +74,18 @@ class Detection {
                            const std::vector<ContactPoint>& of) const;
 
  private:
+    ThreadTeam& team_for(const Bodies& bodies) const;
+
     struct Near;
     struct Look;
+    template <class Place>
+    struct Found;
 
     void add_pair(const Bodies& bodies, Pair pair, double alert, const PlacedShapes& placed,
                   std::vector<ContactPoint>& points) const;
     void add(const Look& look, const Near& near, std::vector<ContactPoint>& points) const;
-    template <class Visit>
-    void each_near(const Look& look, const Visit& visit) const;
+    template <class Part, class Visit>
+    std::vector<Part> each_near(const Look& look, const Visit& visit) const;
     template <class Wanted>
     std::vector<ContactPoint> unordered(const Look& look, const Wanted& wanted) const;
     template <class Order, class Wanted>
@@ -84,6 +94,7 @@ class Detection {
     NarrowPhase narrow_;
     PeriodicBox box_;
     ContactOrder order_;
+    std::unique_ptr<ThreadTeam> team_, alone_;
 };
 
 }  // namespace turbidite::nscd

@@ -71,7 +71,8 @@ void check_step(double dt) {
 
 Engine::Engine(const EngineSettings& settings, const ShapeTable& shapes, std::vector<Wall> walls)
     : settings_(settings),
-      detection_(shapes, settings.box, contact_order(settings.dimension)),
+      detection_(shapes, settings.box, contact_order(settings.dimension),
+                 static_cast<int>(settings.solver_settings.threads)),
       walls_(std::move(walls)),
       laws_(settings.law, law_settings(settings), surface_table(settings), shapes, settings.laws),
       solver_(make_solver(settings.solver, settings.solvers)) {

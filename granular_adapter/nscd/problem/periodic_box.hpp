@@ -19,7 +19,9 @@ struct PeriodicBox {
     /// The shortest periodic image of a distance vector.
     Vec3 minimum_image(Vec3 d) const {
         for (int axis = 0; axis < 3; ++axis)
-            if (repeats(axis)) d[axis] -= length[axis] * std::nearbyint(d[axis] / length[axis]);
+            // Up to half a period nearbyint() is 0, and costs more than all the rest.
+            if (repeats(axis) && std::abs(d[axis]) > 0.5 * length[axis])
+                d[axis] -= length[axis] * std::nearbyint(d[axis] / length[axis]);
         return d;
     }
 

@@ -22,7 +22,7 @@
 #include "granular_adapter/nscd/sweeps/momentum.hpp"
 #include "granular_adapter/nscd/sweeps/stretch_layers.hpp"
 #include "granular_adapter/nscd/sweeps/sweep_layout.hpp"
-#include "granular_adapter/nscd/sweeps/thread_team.hpp"
+#include "granular_adapter/nscd/threads/thread_team.hpp"
 
 namespace turbidite::nscd {
 

@@ -16,14 +16,15 @@ struct Cloud {
     std::vector<double> radii;
 };
 
-/// Radii are log-uniform in [largest / ratio, largest].
-Cloud random_cloud(int count, double width, double ratio, unsigned seed) {
+/// Radii are log-uniform in [largest / ratio, largest]. Without a depth all lie in a plane.
+Cloud random_cloud(int count, double width, double ratio, unsigned seed, double depth = 0.0) {
     std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> place(0.0, width), exponent(0.0, 1.0);
+    std::uniform_real_distribution<double> place(0.0, width), exponent(0.0, 1.0), z(0.0, 1.0);
     Cloud cloud;
     for (int i = 0; i < count; ++i) {
         cloud.x.push_back({place(random), place(random), 0.0});
         cloud.radii.push_back(0.5 * std::pow(ratio, -exponent(random)));
+        if (depth > 0.0) cloud.x.back()[2] = depth * z(random);
     }
     return cloud;
 }
@@ -38,12 +39,33 @@ PairSet brute_force(const Cloud& cloud, double alert, const PeriodicBox& box) {
     return pairs;
 }
 
+std::vector<std::pair<int, int>> listed(const std::vector<Pair>& pairs) {
+    std::vector<std::pair<int, int>> result;
+    for (const Pair& pair : pairs) result.emplace_back(pair.a, pair.b);
+    return result;
+}
+
+/// The pairs of all threads, one after the other.
+std::vector<Pair> shared_out(const Cloud& cloud, double alert, const PeriodicBox& box,
+                             PairOrder order, int threads) {
+    ThreadTeam team(threads);
+    std::vector<Pair> all;
+    for (const auto& part : candidate_pairs(cloud.x, cloud.radii, alert, box, order, team))
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+/// In both orders, which any number of threads keep.
 void expect_same(const Cloud& cloud, double alert, const PeriodicBox& box) {
-    const std::vector<Pair> found = candidate_pairs(cloud.x, cloud.radii, alert, box);
-    PairSet unique;
-    for (const Pair& pair : found) unique.emplace(pair.a, pair.b);
-    EXPECT_EQ(unique.size(), found.size()) << "a pair was found twice";
-    EXPECT_EQ(unique, brute_force(cloud, alert, box));
+    const PairSet expected = brute_force(cloud, alert, box);
+    for (const PairOrder order : {PairOrder::by_body, PairOrder::by_cell}) {
+        const auto found = listed(shared_out(cloud, alert, box, order, 1));
+        EXPECT_EQ(PairSet(found.begin(), found.end()), expected);
+        EXPECT_EQ(found.size(), expected.size()) << "a pair was found twice";
+        EXPECT_EQ(listed(shared_out(cloud, alert, box, order, 3)), found);
+    }
+    EXPECT_EQ(listed(candidate_pairs(cloud.x, cloud.radii, alert, box)),
+              listed(shared_out(cloud, alert, box, PairOrder::by_body, 1)));
 }
 
 // Widths from one cell to many; size ratios from one level to seven.
@@ -61,6 +83,16 @@ TEST(BroadPhase, FindsTheBruteForcePairsAcrossPeriods) {
                 PeriodicBox box;
                 box.length = {width, seed % 2 ? width : 0.0, 0.0};
                 expect_same(random_cloud(300, width, ratio, seed), 0.05 * seed, box);
+            }
+}
+
+TEST(BroadPhase, FindsTheBruteForcePairsInSpace) {
+    for (unsigned seed = 0; seed < 8; ++seed)
+        for (const double ratio : {1.0, 3.0, 100.0})
+            for (const double width : {2.5, 6.0, 12.0}) {
+                PeriodicBox box;
+                box.length = {seed % 2 ? width : 0.0, 0.0, seed % 4 > 1 ? width : 0.0};
+                expect_same(random_cloud(300, width, ratio, seed, width), 0.05 * seed, box);
             }
 }
 

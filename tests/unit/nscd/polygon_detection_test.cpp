@@ -291,6 +291,32 @@ TEST(PolygonDetection, GapIsContinuous) {
     }
 }
 
+// Of polygons and discs among each other and at walls.
+TEST(PolygonDetection, ThreadsFindTheSamePointsInTheSameOrder) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> place(0.0, 60.0), turn(0.0, 2.0 * std::numbers::pi);
+    const ShapeTable shapes = {
+        scenes::random_polygon(random), {"disc", {}}, scenes::square_record()};
+    Bodies bodies;
+    for (int i = 0; i < 4000; ++i)
+        bodies.add(
+            scenes::polygon(shapes, i % 3, i, place(random), place(random), 0.5, turn(random)));
+    const std::vector<Wall> walls = {scenes::floor(0.3)};
+    const auto found = [&](int threads) {
+        return Detection(shapes, {}, ContactOrder::top_down, threads)
+            .points(bodies, walls, {0.0, -1.0, 0.0}, 0.02, 0.02);
+    };
+    const std::vector<ContactPoint> one = found(1), several = found(3);
+    EXPECT_GT(one.size(), 4000u);
+    EXPECT_GT(std::count_if(one.begin(), one.end(), [](const auto& p) { return p.wall >= 0; }), 30);
+    ASSERT_EQ(several.size(), one.size());
+    for (std::size_t k = 0; k < one.size(); ++k) {
+        const ContactPoint &p = several[k], &q = one[k];
+        ASSERT_EQ(std::tie(p.a, p.b, p.wall, p.feature, p.gap, p.normal),
+                  std::tie(q.a, q.b, q.wall, q.feature, q.gap, q.normal));
+    }
+}
+
 TEST(DiscPolygonDetection, AgreesWithExhaustion) {
     std::mt19937_64 random(10);
     int corners = 0;

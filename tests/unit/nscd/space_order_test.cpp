@@ -143,6 +143,35 @@ TEST(CellOrder, ContactsOfLargeBodiesAreAClassOfTheirOwn) {
     EXPECT_LT(large, static_cast<int>(points.size()) - 100);
 }
 
+// Detection by several threads, of pairs, walls and the class of large bodies.
+TEST(CellOrder, ThreadsFindTheSamePointsInTheSameOrder) {
+    const Bodies bodies = cloud(20000, 3.0);
+    const std::vector<Wall> walls = {scenes::floor(0.3)};
+    PeriodicBox box;
+    box.length = {40.0, 0.0, 40.0};
+    const Detection::Search search{bodies, walls, {0.0, -1.0, 0.0}, reach, share};
+    const auto found = [&](int threads) {
+        return Detection(scenes::spheres, box, ContactOrder::cells, threads).ordered_points(search);
+    };
+    const OrderedPoints one = found(1);
+    std::size_t at_walls = 0;
+    for (const ContactPoint& point : one.points) at_walls += point.wall >= 0;
+    EXPECT_GT(at_walls, 100u);
+    EXPECT_GT(one.points.size(), 10000u);
+    EXPECT_GT(one.cells.size(), 100u);
+    for (const int threads : {2, 3}) {
+        const OrderedPoints several = found(threads);
+        EXPECT_EQ(several.cells.place, one.cells.place);
+        EXPECT_EQ(several.cells.end, one.cells.end);
+        ASSERT_EQ(several.points.size(), one.points.size());
+        for (std::size_t k = 0; k < one.points.size(); ++k) {
+            const ContactPoint &p = several.points[k], &q = one.points[k];
+            ASSERT_EQ(std::tie(p.a, p.b, p.wall, p.gap, p.normal),
+                      std::tie(q.a, q.b, q.wall, q.gap, q.normal));
+        }
+    }
+}
+
 // Bodies stored in another order: the same contacts in the same order, and bitwise the same motion.
 TEST(CellOrder, StorageDoesNotMatter) {
     std::vector<std::size_t> order(5 * 5 * 6);

@@ -4,6 +4,7 @@
 // bitwise that of one contact after the other in the given order.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
 #include <random>
 #include <set>
@@ -332,11 +333,12 @@ TEST(ContactOrder, TakesARowByColoursFromTheTopDown) {
         points.push_back(point);
     }
     TopDownOrder down(bodies, {0.0, -9.81, 0.0}, 1e-3), without(bodies, {}, 1e-3);
-    points = sorted_by(down, points);
+    ThreadTeam alone(1);
+    points = sorted_by(down, points, alone);
     std::vector<std::int32_t> first;
     for (const ContactPoint& point : points) first.push_back(point.a);
     EXPECT_EQ(first, (std::vector<std::int32_t>{6, 8, 10, 7, 9, 0, 2, 4, 1, 3}));
-    points = sorted_by(without, points);
+    points = sorted_by(without, points, alone);
     EXPECT_EQ(points[0].a, 6) << "without gravity nothing changes";
 }
 
@@ -474,6 +476,21 @@ TEST(Nlgs, DependsOnNeitherThreadsNorInstructions) {
                 EXPECT_EQ(reference.change.quad, other.change.quad);
             }
     }
+}
+
+// After all threads have ended; and the team goes on.
+TEST(ThreadTeam, ThrowsWhatAThreadHasThrown) {
+    ThreadTeam team(3);
+    std::atomic<int> ended{0};
+    for (const int thrower : {0, 2})
+        EXPECT_THROW(team.run([&](int thread) {
+            ++ended;
+            if (thread == thrower) throw std::domain_error("here");
+        }),
+                     std::domain_error);
+    EXPECT_EQ(ended, 6);
+    team.run([&](int) { ++ended; });
+    EXPECT_EQ(ended, 9);
 }
 
 TEST(Nlgs, RefusesNoThreads) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "granular_adapter/nscd/sweeps/thread_team.hpp"
+#include "granular_adapter/nscd/threads/thread_team.hpp"
+
+#include <utility>
 
 namespace turbidite::nscd {
 namespace {
@@ -49,9 +51,19 @@ void ThreadTeam::run(const std::function<void(int)>& work) {
     busy_.store(static_cast<int>(threads_.size()), std::memory_order_relaxed);
     order_.fetch_add(1, std::memory_order_release);
     order_.notify_all();
-    work(0);
+    work_as(0);
     Patience patience;
     while (busy_.load(std::memory_order_acquire) > 0) patience.wait();
+    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void ThreadTeam::work_as(int number) {
+    try {
+        (*work_)(number);
+    } catch (...) {
+        const std::lock_guard lock(failing_);
+        if (!failure_) failure_ = std::current_exception();
+    }
 }
 
 void ThreadTeam::serve(int number) {
@@ -65,7 +77,7 @@ void ThreadTeam::serve(int number) {
         order_.wait(seen, std::memory_order_acquire);
         seen = order_.load(std::memory_order_acquire);
         if (seen < 0) return;
-        (*work_)(number);
+        work_as(number);
         busy_.fetch_sub(1, std::memory_order_release);
     }
 }

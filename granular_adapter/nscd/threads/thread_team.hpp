@@ -6,7 +6,9 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -28,8 +30,8 @@ class ThreadTeam {
         return count * static_cast<std::size_t>(thread) / static_cast<std::size_t>(size());
     }
 
-    /// Calls work(0) … work(size - 1), each in its own thread, and returns when all are done. The
-    /// work must not throw.
+    /// Calls work(0) … work(size - 1), each in its own thread, and returns when all are done.
+    /// Throws what the first of them has thrown.
     void run(const std::function<void(int)>& work);
 
     /// Waits for another thread, first spinning, then yielding the processor.
@@ -54,11 +56,14 @@ class ThreadTeam {
 
  private:
     void serve(int number);
+    void work_as(int number);
 
     std::vector<std::thread> threads_;
     const std::function<void(int)>* work_ = nullptr;
     std::atomic<std::int64_t> order_{0};  ///< number of runs started; -1: exit
     std::atomic<int> busy_{0};
+    std::mutex failing_;
+    std::exception_ptr failure_;  ///< the first of the present run
 };
 
 }  // namespace turbidite::nscd
