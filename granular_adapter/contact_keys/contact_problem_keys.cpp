@@ -70,8 +70,8 @@ KeyGroup contact_problem_keys() {
                  .type = KeyType::integer,
                  .fallback = "1",
                  .range = {.lower = 1.0, .upper = 64.0},
-                 .help =
-                     "threads for the sweeps of the contact solver; results do not depend on it",
+                 .help = "threads of contact detection and of the sweeps of the contact solver; "
+                         "results do not depend on it",
                  .contacts = Contacts::rigid},
                 {.name = "contact.recovery_fraction",
                  .type = KeyType::real,
