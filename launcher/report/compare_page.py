@@ -17,6 +17,8 @@ from document.page import Page
 from head import facts
 from seeds import SEED
 
+LONGEST_LABEL = 24  # characters; legends must not hide the curves
+MOST_LABELS = 6
 SVG_DASHES = ('', '10 4', '10 3 2 3', '2 3', '12 3 2 3 2 3', '16 5', '5 5')
 
 
@@ -168,10 +170,11 @@ def curve_panel(comparison, quantity):
     members = comparison.members
     figure, axes = curves.panel(quantity.title, curves.TIME_LABEL, quantity.unit)
     for i, member in enumerate(members):
-        draw_member(axes, i, member.data.column(quantity.column),
+        draw_member(axes, i, member.name, member.data.column(quantity.column),
                     member.band(quantity.column) if member.is_group() else None)
     if quantity.logarithmic:
         curves.logarithmic(axes)
+    name_lines(axes)
     return figure, f'curves-{quantity.column}'
 
 
@@ -185,8 +188,9 @@ def quantity_panels(comparison, quantity):
         other, beside = curves.panel(f'{quantity.title}: difference', curves.TIME_LABEL, quantity.unit)
         for i, curve in apart:
             if curve is not None:
-                draw_member(beside, i, curve, None)
-        beside.axhline(0.0, color=f'#{colour_of(0)}', linewidth=1.0)
+                draw_member(beside, i, members[i].name, curve, None)
+        beside.axhline(0.0, color=f'#{colour_of(0)}', linewidth=1.0, label=label_of(members[0].name))
+        name_lines(beside)
         shown.append((other, f'difference-{quantity.column}'))
     return shown
 
@@ -199,14 +203,25 @@ def difference_curve(first, second):
     return times, np.interp(times, *second) - np.interp(times, *first)
 
 
-def draw_member(axes, i, line, band):
+def draw_member(axes, i, name, line, band):
     """Line and band (abscissae, low, high) of member `i`: its own dashes, colour and, far apart, markers, so that curves
     that coincide show."""
     every = max(1, len(line[0]) // 8)
-    axes.plot(*line, color=f'#{colour_of(i)}', linestyle=curves.dash(i), linewidth=1.4,
+    axes.plot(*line, color=f'#{colour_of(i)}', linestyle=curves.dash(i), linewidth=1.4, label=label_of(name),
               marker=curves.MARKERS[i % len(curves.MARKERS)], markersize=3.5, markevery=(i * every // 3, every))
     if band is not None:
         axes.fill_between(*band, color=f'#{colour_of(i)}', alpha=0.18, linewidth=0.0)
+
+
+def label_of(name):
+    """The end of a long name tells members apart."""
+    return (name if len(name) <= LONGEST_LABEL else '…' + name[1 - LONGEST_LABEL:]).replace('$', r'\$')
+
+
+def name_lines(axes):
+    """Pictures are used without the page and its legend as well."""
+    if 1 < len(axes.get_legend_handles_labels()[1]) <= MOST_LABELS:
+        axes.legend(fontsize=7.5, framealpha=0.7)
 
 
 def draw_curves(comparison):
@@ -250,8 +265,8 @@ def add_surfaces(page, comparison):
     figure, axes = plt.subplots(figsize=curves.PANEL, layout='constrained')
     for i, name, found in shown:
         x, high, low, height = surface.trimmed(found.x, found.high, found.low, found.height)
-        draw_member(axes, i, (x, height), (x, low, high) if found.runs > 1 else None)
-    surface.decorate(axes, legend=False)
+        draw_member(axes, i, name, (x, height), (x, low, high) if found.runs > 1 else None)
+    surface.decorate(axes)
     page.panels([(figure, 'surface')], 'Highest point of the grains in each column of one D at the last output: '
                 + ', '.join(f'{name} at t = {found.time:g} t_c' for _, name, found in shown) + '.')
 
@@ -265,7 +280,8 @@ def add_concentration(page, members):
         return
     figure, axes = curves.panel('Concentration over height at the end', 'solid share', r'$y\,/\,D$')
     for i, one in found:
-        draw_member(axes, i, (one.shares[-1], 0.5 * (one.edges[1:] + one.edges[:-1])), None)
+        draw_member(axes, i, members[i].name, (one.shares[-1], 0.5 * (one.edges[1:] + one.edges[:-1])), None)
+    name_lines(axes)
     page.heading('Concentration over height')
     page.panels([(figure, 'concentration')], 'Solid share of layers of one D'
                 + (', first seeds.' if any(member.is_group() for member in members) else '.'))

@@ -65,13 +65,12 @@ def trimmed(x, *heights):
     return (x[:end], *(height[:end] for height in heights))
 
 
-def decorate(axes, legend=True):
+def decorate(axes):
     curves.decorate(axes, 'Surface', r'$y\,/\,D$')
     axes.set_xlabel(r'$x\,/\,D$')
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)
-    if legend:
-        axes.legend(fontsize=8)
+    axes.legend(fontsize=8)
 
 
 def last_grains(run):

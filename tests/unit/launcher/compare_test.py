@@ -6,10 +6,13 @@ import io
 import json
 import unittest
 
+import matplotlib.pyplot as plt
 import numpy as np
 from made_up_run import CASE, VTP, RunFolderTest
 
 import compare
+import compare_page
+import curves
 import run_data
 import seeds
 from differences import common_span, difference
@@ -257,6 +260,19 @@ class Compare(RunFolderTest):
         self.assertIn('dense: mean of dense-seed1 (seed 1), dense-seed2 (seed 2), dense-seed3 (seed 3)',
                       page)
         self.assertIn('1, 2, 3', page)
+        self.assertIn('; lines: dense; other"', page)  # pictures have the names as well as the page
+
+    def test_a_picture_has_a_legend_of_its_own(self):
+        """Without one where it would hide the curves."""
+        for count, shown in ((1, 0), (2, 2), (6, 6), (7, 0)):
+            figure, axes = curves.panel('', '', '')
+            for i in range(count):
+                compare_page.draw_member(axes, i, 'a' * 30 + str(i), ([0, 1], [0, 1]), None)
+            compare_page.name_lines(axes)
+            legend = axes.get_legend()
+            texts = [text.get_text() for text in legend.get_texts()] if legend else []
+            self.assertEqual(texts, ['…' + 'a' * 22 + str(i) for i in range(shown)])
+            plt.close(figure)
 
     def test_the_worst_run_of_a_group_is_not_averaged_away(self):
         """One of them was killed: its largest values are in its rows alone."""
