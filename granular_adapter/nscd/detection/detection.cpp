@@ -109,7 +109,7 @@ std::vector<ContactPoint> Detection::unordered(const Look& look, const Wanted& w
     return points;
 }
 
-/// A point without its numbers.
+/// How to find a point again, and what decides where it comes in the order.
 template <class Place>
 struct Detection::Found {
     Near near;
