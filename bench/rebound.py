@@ -4,7 +4,7 @@
 
     bench/rebound.py RUN...
 
-RUN are folders of the parts rebound* of configs/spheres-in-liquid.yaml. U is the largest speed downwards before the first
+RUN are folders of runs of configs/validation/rebound.yaml (docs/spheres-in-liquid.md has the commands). U is the largest speed downwards before the first
 contact, e the speed a tenth of a t_c after it over U (in between the liquid that came down with the sphere gives back its
 momentum), St = (rho_s/rho_f) U D/(9 nu); beside e/e_dry stands exp(-35/St), a curve through measurements (Legendre, Daniel
 and Guiraud, Phys. Fluids 17 (2005) 097105)."""
