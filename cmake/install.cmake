@@ -6,6 +6,9 @@
 #     PREFIX/share/turbidite             as the source tree: configs, launcher/report, launcher/python
 #     PREFIX/lib/python3/dist-packages   a link to launcher/python/turbidite, where Debian's Python looks with PREFIX /usr
 set(run_root lib/turbidite)
+# Whatever the umask of whoever installs or packages.
+set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(programs turbidite turbidite-member turbidite-partner turbidite-replay turbidite-coupler turbidite-fluid-box
              turbidite-grains turbidite-grains-md)
 set(libraries turbidite_world_isolation turbidite_c)
@@ -37,7 +40,7 @@ install(FILES ${links}/python/turbidite DESTINATION lib/python3/dist-packages CO
 foreach(folder configs launcher/report launcher/python launcher/site)
     get_filename_component(parent ${folder} DIRECTORY)
     install(DIRECTORY ${folder} DESTINATION share/turbidite/${parent} COMPONENT run
-            PATTERN "*.[ch]pp" EXCLUDE PATTERN __pycache__ EXCLUDE)
+            PATTERN "*.[ch]pp" EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN runs EXCLUDE PATTERN "*~" EXCLUDE)
 endforeach()
 install(DIRECTORY docs DESTINATION share/doc/turbidite COMPONENT run)
 install(FILES README.md SECURITY.md CITATION.cff DESTINATION share/doc/turbidite COMPONENT run)

@@ -10,6 +10,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS})
 set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/package-version.cmake)
 set(CPACK_TURBIDITE_SOURCE ${PROJECT_SOURCE_DIR})
 set(CPACK_TURBIDITE_VERSION ${PROJECT_VERSION})
@@ -26,7 +27,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
 # Python modules are loaded by name, programs are started.
 set(CPACK_DEBIAN_RUN_PACKAGE_DEPENDS
     "openfoam (>= 1912.200626), openfoam (<< 1913~), libopenfoam (>= 1912.200626), libopenfoam (<< 1913~), yade (>= 2023.02a), yade (<< 2023.03~), openmpi-bin, python3 (>= 3.11), python3-numpy, python3-matplotlib, python3-mpi4py")
-set(CPACK_DEBIAN_RUN_PACKAGE_RECOMMENDS "python3-pandas, ffmpeg")
+set(CPACK_DEBIAN_RUN_PACKAGE_RECOMMENDS "python3-pandas")
 set(CPACK_DEBIAN_RUN_DESCRIPTION "immersed granular flows: OpenFOAM and YADE in one simulation
 Grains in a liquid, particle-resolved in the plane and in space: the liquid
 by a distributed-multiplier fictitious-domain method in OpenFOAM, the grains

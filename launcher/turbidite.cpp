@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // turbidite COMMAND: the commands are a table, one file command_*.cpp each.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,7 +79,7 @@ int act(const CommandAction& action) {
         return action();
     } catch (const Failure& failure) {
         std::fflush(stdout);
-        fmt::print(stderr, "{}", for_stderr(std::string(failure.what()) + "\n"));
+        print_on_stderr(for_stderr(std::string(failure.what()) + "\n"));
         return static_cast<int>(failure.code());
     } catch (const std::exception& error) {
         std::fflush(stdout);
@@ -125,9 +128,26 @@ std::vector<std::string> words_of(int argc, char** argv) {
     return words;
 }
 
+/// A file that is opened later must not become a standard stream that was closed
+/// (`turbidite run CASE 2>&-`): what is said would go into it.
+void open_standard_streams() {
+    for (int stream = open("/dev/null", O_RDWR); stream >= 0; stream = open("/dev/null", O_RDWR)) {
+        if (stream <= STDERR_FILENO) continue;
+        close(stream);
+        return;
+    }
+}
+
+/// On stdout, as on a full disk.
+bool all_was_written() {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+    tell_on_stderr("what this command has printed could not be written to standard output");
+    return false;
+}
+
 int turbidite_main(const std::vector<std::string>& words) {
     if (const std::string complaint = unknown_command(words[0]); !complaint.empty()) {
-        fmt::print(stderr, "{}", for_stderr(complaint + "\n"));
+        print_on_stderr(for_stderr(complaint + "\n"));
         return static_cast<int>(ExitCode::bad_input);
     }
     CLI::App app{description, "turbidite"};
@@ -146,7 +166,7 @@ int turbidite_main(const std::vector<std::string>& words) {
     } catch (const CLI::ExtrasError& error) {
         // CLI11 names all words behind the one that it does not know.
         if (const std::string complaint = unknown_option(app, words); !complaint.empty())
-            fmt::print(stderr, "{}", for_stderr(complaint + "\n"));
+            print_on_stderr(for_stderr(complaint + "\n"));
         else
             app.exit(error);
         return static_cast<int>(ExitCode::bad_input);
@@ -162,7 +182,10 @@ int turbidite_main(const std::vector<std::string>& words) {
 }  // namespace turbidite
 
 int main(int argc, char** argv) {
+    turbidite::open_standard_streams();
     turbidite::ask_for_large_pages();
     const int code = turbidite::turbidite_main(turbidite::words_of(argc, argv));
+    if (!turbidite::all_was_written())
+        return static_cast<int>(turbidite::ExitCode::participant_failed);
     return argc == 1 ? static_cast<int>(turbidite::ExitCode::bad_input) : code;
 }

@@ -11,6 +11,7 @@
 #include "launcher/commands/command.hpp"
 #include "launcher/job/overdue.hpp"
 #include "launcher/job/play_run.hpp"
+#include "launcher/job/terminal.hpp"
 
 namespace turbidite {
 namespace {
@@ -123,7 +124,7 @@ int replay(const ReplayOptions& options) {
                                 .overdue = Overdue(folder, resolved.settings),
                                 .had_children = [&] { return played_here(folder); }});
     const JobOutcome outcome = settle_outcome(folder, end, {"replay", side + " rank 0"});
-    if (outcome.code != ExitCode::done) fmt::print(stderr, "{}", outcome_text(folder, outcome));
+    if (outcome.code != ExitCode::done) print_on_stderr(outcome_text(folder, outcome));
     const bool differs = is_there(folder.root / "differences");
     return static_cast<int>(outcome.code == ExitCode::done && differs ? ExitCode::tests_failed
                                                                       : outcome.code);

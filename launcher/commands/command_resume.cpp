@@ -22,8 +22,7 @@ struct ResumeOptions {
 int resume(const ResumeOptions& options) {
     hold_announcements();
     const auto tell = [&](const std::string& text) {
-        options.dry_run ? fmt::print(stderr, "{}", for_stderr(text))
-                        : fmt::print("{}", for_stdout(text));
+        options.dry_run ? print_on_stderr(for_stderr(text)) : fmt::print("{}", for_stdout(text));
     };
     const LaunchSite site = this_site();
     const auto resumed =

@@ -83,7 +83,7 @@ int run(const RunOptions& options) {
         fmt::print("{}", for_stdout(summary));
         return static_cast<int>(play(prepared, site.programs).code);
     }
-    fmt::print(stderr, "{}", for_stderr(summary));
+    print_on_stderr(for_stderr(summary));
     fmt::print("{}\n", shell_line(prepared.line));
     return static_cast<int>(ExitCode::done);
 }

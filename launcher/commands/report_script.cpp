@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/commands/report_script.hpp"
+#include "launcher/job/terminal.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -43,7 +44,7 @@ class InterruptsNoted {
 
 /// A study does not go on with its next run, nor a shell with its next command.
 [[noreturn]] void end_by_interrupt(const std::string& remedy) {
-    fmt::print(stderr, "\nStopped. {}\n", remedy);
+    print_on_stderr(fmt::format("\nStopped. {}\n", remedy));
     std::signal(SIGINT, SIG_DFL);
     std::raise(SIGINT);
     std::_Exit(static_cast<int>(ExitCode::interrupted));

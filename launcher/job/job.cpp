@@ -24,10 +24,18 @@ namespace {
 constexpr int cannot_start = 127;
 constexpr std::chrono::seconds grace{5};  // between SIGTERM, which mpirun passes on, and SIGKILL
 
+/// nohup has it ignored, so that the run outlives the terminal.
+bool ignores_hangups() {
+    struct sigaction now = {};
+    return sigaction(SIGHUP, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
 sigset_t watched_signals() {
     sigset_t set;
     sigemptyset(&set);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGCHLD}) sigaddset(&set, signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGCHLD}) sigaddset(&set, signal);
+    // Blocked, it would be taken even where it is ignored.
+    if (!ignores_hangups()) sigaddset(&set, SIGHUP);
     return set;
 }
 
@@ -106,6 +114,7 @@ void redirect(int stream, const std::filesystem::path& file) {
     sigprocmask(SIG_SETMASK, &mask, nullptr);
     const sigset_t held = announcements();
     sigprocmask(SIG_UNBLOCK, &held, nullptr);
+    signal(SIGPIPE, SIG_DFL);
     redirect(STDERR_FILENO, order.error_log);
     if (!order.output_log.empty()) redirect(STDOUT_FILENO, order.output_log);
     // Nothing of the terminal's input goes to the job.
@@ -231,9 +240,21 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
 
 }  // namespace
 
+PipesMayBreak::PipesMayBreak() : before_(signal(SIGPIPE, SIG_IGN)) {}
+
+PipesMayBreak::~PipesMayBreak() {
+    signal(SIGPIPE, before_);
+}
+
 void hold_announcements() {
     const sigset_t set = announcements();
     sigprocmask(SIG_BLOCK, &set, nullptr);
+}
+
+bool announced() {
+    const sigset_t set = announcements();
+    const timespec now{0, 0};
+    return sigtimedwait(&set, nullptr, &now) == SIGUSR1;
 }
 
 JobEnd run_job(const JobOrder& order) {

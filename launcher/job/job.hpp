@@ -35,9 +35,26 @@ struct JobEnd {
     bool crashed = false;  ///< ended by a signal that was not sent on request
 };
 
+/// While it exists, writing to a pipe whose reader has gone is an error and no signal: Ctrl-C ends
+/// `turbidite run | tee log` whose `tee` it has ended first in order, too. The job does not inherit
+/// it.
+class PipesMayBreak {
+ public:
+    PipesMayBreak();
+    ~PipesMayBreak();
+    PipesMayBreak(const PipesMayBreak&) = delete;
+    PipesMayBreak& operator=(const PipesMayBreak&) = delete;
+
+ private:
+    void (*before_)(int);
+};
+
 /// From now on SIGUSR1, with which batch systems announce the end of their time, waits for the next
 /// job: it ends neither preparations nor a report.
 void hold_announcements();
+
+/// Whether one is waiting. It is taken.
+bool announced();
 
 /// Waits for the end. Throws Failure (exit code 4) if the program cannot be started.
 JobEnd run_job(const JobOrder& order);

@@ -11,6 +11,7 @@
 #include "coupler/protocol/files/start_record.hpp"
 #include "coupler/protocol/host_name.hpp"
 #include "launcher/job/folder/run_json.hpp"
+#include "launcher/job/terminal.hpp"
 
 namespace turbidite {
 namespace {
@@ -62,8 +63,7 @@ bool Overdue::operator()() {
     if (!over_ && !is_over(folder_)) return false;
     if (!over_) over_ = Clock::now();
     if (!past(*over_, end_limit)) return false;
-    fmt::print(stderr, "{}\n",
-               late_end_text(staying(folder_, settings_), settings_.real(end_limit)));
+    print_on_stderr(late_end_text(staying(folder_, settings_), settings_.real(end_limit)) + "\n");
     return true;
 }
 

@@ -34,7 +34,7 @@ bool request_stop(const RunFolder& folder, int signal) {
     } catch (const Failure& failure) {
         answer = failure.what();
     }
-    fmt::print(stderr, "\n{}; interrupt again to kill the job.\n", answer);
+    print_on_stderr(fmt::format("\n{}; interrupt again to kill the job.\n", answer));
     return true;
 }
 
@@ -53,7 +53,7 @@ void tell_foam_warnings(const RunFolder& folder, const Settings& settings) {
     const std::string text =
         foam_warning_text(foam_warnings(log), std::filesystem::relative(log, folder.root).string());
     if (text.empty()) return;
-    fmt::print(stderr, "turbidite: warning: {}\n", text);
+    print_on_stderr(fmt::format("turbidite: warning: {}\n", text));
     auto record = read_run_json(folder.record());
     auto others = nlohmann::ordered_json::array();
     for (const auto& one : record.value("warnings", others))
@@ -63,7 +63,7 @@ void tell_foam_warnings(const RunFolder& folder, const Settings& settings) {
     try {
         write_run_json(folder.record(), record);
     } catch (const Failure& failure) {
-        fmt::print(stderr, "{}\n", failure.what());
+        print_on_stderr(std::string(failure.what()) + "\n");
     }
 }
 
@@ -90,6 +90,7 @@ PreparedRun fill(const ResolvedCase& resolved, const OwnFolder& own, const Launc
 
 JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     const RunFolder& folder = prepared.folder;
+    const PipesMayBreak until_reported;
     std::fflush(nullptr);
     ::setenv("TURBIDITE_PROGRESS", rewrites_lines() ? "terminal" : "plain", 1);
     const JobEnd end = run_job({.arguments = prepared.line,
@@ -104,11 +105,11 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     const bool done = outcome.code == ExitCode::done;
     std::error_code unread;
     if (done) std::filesystem::remove(folder.stop(), unread);  // asked for after the last window
-    if (!done) fmt::print(stderr, "{}", for_stderr(outcome_text(folder, outcome)));
+    if (!done) print_on_stderr(for_stderr(outcome_text(folder, outcome)));
     const bool due = report_wanted() && has_output(folder);
     const bool reported = !due || write_report(folder, programs);
     if (done) fmt::print("{}", for_stdout(outcome_text(folder, outcome)));
-    if (!reported) fmt::print(stderr, "report.html could not be written; see above.\n");
+    if (!reported) print_on_stderr("report.html could not be written; see above.\n");
     return outcome;
 }
 

@@ -93,6 +93,10 @@ std::shared_ptr<RunLock> own_turn(const fs::path& pouring) {
     bool told = false;
     for (;;) {
         if (auto lock = RunLock::take(folder, std::chrono::seconds(1))) return lock;
+        if (announced())
+            throw Failure(ExitCode::terminated,
+                          "interrupted while another run pours the same grains: nothing has been "
+                          "played. Exit code 143.");
         if (!std::exchange(told, true))
             tell_on_stderr("another run pours the same grains; this one waits for them, in " +
                            pouring.string());

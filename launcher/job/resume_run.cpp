@@ -378,6 +378,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     if (is_complete(folder, resolved)) return std::nullopt;
     if (!chosen) require_no_windows(folder);
     remove_requests(folder);
+    fs::create_directories(folder.logs());  // somebody may have removed old ones
     put_aside(folder.logs());
     if (fs::exists(folder.recordings())) put_aside(folder.recordings());
     if (!chosen) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 
 #include "launcher/case/keys/wrapped_text.hpp"
@@ -48,8 +49,12 @@ std::string for_stderr(const std::string& lines) {
     return for_stream(STDERR_FILENO, lines);
 }
 
+void print_on_stderr(const std::string& lines) {
+    std::fputs(lines.c_str(), stderr);
+}
+
 void tell_on_stderr(const std::string& text) {
-    fmt::print(stderr, "{}", for_stderr(fmt::format("turbidite: {}\n", text)));
+    print_on_stderr(for_stderr(fmt::format("turbidite: {}\n", text)));
 }
 
 }  // namespace turbidite

@@ -20,6 +20,10 @@ std::string for_stdout(const std::string& lines);
 /// The same for stderr.
 std::string for_stderr(const std::string& lines);
 
+/// Writes to stderr. What nobody takes any more, as on a full disk or in a closed terminal, is
+/// lost: no run ends for it.
+void print_on_stderr(const std::string& lines);
+
 /// Writes "turbidite: ..." as a line of its own to stderr.
 void tell_on_stderr(const std::string& text);
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The program as seen by the user: exit codes, what is printed where, what a run leaves behind.
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <functional>
 #include <sstream>
 #include <thread>
 
@@ -53,6 +56,27 @@ TEST_F(CommandLine, BadUsage) {
     EXPECT_EQ(option.code, 2);
     EXPECT_SAYS(option.err, "turbidite run: there is no option --outt");
     EXPECT_SAYS(option.err, "Did you mean --out?");
+}
+
+// On a full disk, or with streams that a daemon has closed.
+TEST_F(CommandLine, WhatCannotBePrintedChangesNoExitCodeButThatOfOutput) {
+    const std::string check = program + " check ";
+    EXPECT_EQ(shell(check + "nowhere.yaml 2>/dev/full").code, 2);
+    EXPECT_EQ(shell(check + "nowhere.yaml 2>&-").code, 2);
+    EXPECT_EQ(shell(check + "nowhere.yaml <&- >&- 2>&-").code, 2);
+    const Answer lost = shell(check + quickstart + quick + " >/dev/full");
+    EXPECT_EQ(lost.code, 4);
+    EXPECT_SAYS(lost.err, "could not be written to standard output");
+    // Nobody who closes it misses anything.
+    EXPECT_EQ(shell(check + quickstart + quick + " >&-").code, 0);
+}
+
+// The lock of a run is the first file that it opens; why the run fails would go into it.
+TEST_F(CommandLine, NoFileOfARunBecomesAClosedStream) {
+    const Answer run = shell(program + " run " + quickstart + quick +
+                             " --set limits.penetration=1e-9" + into_run_folder() + " 2>&-");
+    EXPECT_EQ(run.code, 6);
+    EXPECT_FALSE(fs::exists(run_folder() / "lock")) << text(run_folder() / "lock");
 }
 
 TEST_F(CommandLine, HelpAndVersion) {
@@ -303,18 +327,22 @@ class Interrupted : public CommandLine {
  protected:
     Interrupted() { with_reports(); }
 
-    int stop_by(int signal, const std::string& options) const {
+    /// `before` is done just before the signal; `out` takes what is printed.
+    int stop_by(
+        int signal, const std::string& options, const std::string& out = "out",
+        const std::function<void()>& before = [] {}) const {
         const pid_t child = fork();
         if (child == 0) {
             const std::string line = "exec " + program + " run " + quickstart + options +
                                      " --set time.end=2000 --set output.interval=1" +
-                                     into_run_folder() + " >" + (scratch.path() / "out").string() +
+                                     into_run_folder() + " >" + (scratch.path() / out).string() +
                                      " 2>&1";
             execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
             _exit(127);
         }
         for (int i = 0; i < 600 && rows_of_history() < 2; ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        before();
         kill(child, signal);
         int status = 0;
         waitpid(child, &status, 0);
@@ -351,6 +379,18 @@ TEST_F(Interrupted, BySigintEndsWithTheFieldsOfTheLastWindow) {
 TEST_F(Interrupted, BySigtermEndsAfterOneMoreWindow) {
     EXPECT_EQ(stop_by(SIGTERM, quick), 143) << text(scratch.path() / "out");
     EXPECT_EQ(record().at("exit_code"), 143);
+    EXPECT_GT(windows_done(), 0);
+    expect_history_and_report_to_the_last_window();
+}
+
+// As Ctrl-C does in `turbidite run CASE 2>&1 | tee log`, which ends tee first.
+TEST_F(Interrupted, WithoutAReaderOfItsPipeEndsInOrder) {
+    const std::string pipe = scratch.path() / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    ASSERT_GE(reader, 0);
+    EXPECT_EQ(stop_by(SIGINT, quick, "pipe", [reader] { close(reader); }), 130);
+    EXPECT_EQ(record().at("exit_code"), 130);
     EXPECT_GT(windows_done(), 0);
     expect_history_and_report_to_the_last_window();
 }

@@ -173,6 +173,14 @@ double cores_for_a_job() {
     return std::max(1u, std::thread::hardware_concurrency());
 }
 
+double cores_here() {
+    double cores = std::max(1u, std::thread::hardware_concurrency());
+    for (const char* tasks : {"SLURM_NTASKS", "PBS_NP"})
+        if (const char* given = std::getenv(tasks); given != nullptr && std::atoi(given) > 0)
+            cores = std::min<double>(cores, std::atoi(given));
+    return cores;
+}
+
 std::string ranks_warning(const ResolvedCase& resolved, double cores) {
     const Settings& settings = resolved.settings;
     if (!settings.flag("fluid.enabled")) return "";

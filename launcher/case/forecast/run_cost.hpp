@@ -27,13 +27,16 @@ struct WindowForecast {
 /// several nodes, whose cores are not those of this machine.
 double cores_for_a_job();
 
+/// Those that a job on this host can use: of a batch job not more than its tasks.
+double cores_here();
+
 WindowForecast forecast_window(const ResolvedCase& resolved, double cores = cores_for_a_job());
 
 /// A sentence where the fluid has more ranks than there are cores; otherwise empty.
 std::string ranks_warning(const ResolvedCase& resolved, double cores = cores_for_a_job());
 
 /// On how many ranks that contact engine moves so many spheres fastest.
-std::int64_t best_grains_ranks(std::size_t spheres, double cores = cores_for_a_job());
+std::int64_t best_grains_ranks(std::size_t spheres, double cores = cores_here());
 
 /// A sentence where the grains are too few, or the cores, for several ranks of the contact engine.
 std::string grains_ranks_warning(const ResolvedCase& resolved, double cores = cores_for_a_job());

@@ -4,6 +4,7 @@ import base64
 import html
 import io
 import itertools
+import os
 import re
 import sys
 from contextlib import contextmanager
@@ -145,7 +146,7 @@ class Page:
 
 def address_of(path):
     """Of a file beside the page, for a link."""
-    return html.escape(quote(str(path)))
+    return html.escape(quote(os.fsencode(path)))
 
 
 def write_whole(path, content):

@@ -166,6 +166,50 @@ TEST_F(JobTest, FirstSignalIsARequest) {
     EXPECT_EQ(requests, 1);
 }
 
+// As under nohup, when the terminal is closed.
+TEST_F(JobTest, AnIgnoredHangupStaysIgnored) {
+    const auto before = signal(SIGHUP, SIG_IGN);
+    {
+        const Later hangup(1, SIGHUP);
+        const JobEnd end = run("sleep 1; exit 7");
+        EXPECT_EQ(end.signal, 0);
+        EXPECT_EQ(end.status, 7);
+        EXPECT_EQ(requests, 0);
+    }
+    sigset_t blocked_by_later, pending;
+    sigemptyset(&blocked_by_later);
+    sigaddset(&blocked_by_later, SIGHUP);
+    sigprocmask(SIG_UNBLOCK, &blocked_by_later, nullptr);
+    sigpending(&pending);
+    EXPECT_FALSE(sigismember(&pending, SIGHUP));
+    signal(SIGHUP, before);
+}
+
+TEST_F(JobTest, PipesMayBreakForThisProcessAlone) {
+    const PipesMayBreak here;
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    close(ends[0]);
+    EXPECT_EQ(write(ends[1], "x", 1), -1);
+    close(ends[1]);
+    // Signals that the job ignores; SIGPIPE is bit 13.
+    run("echo $((0x$(awk '/^SigIgn/ {print $2}' /proc/$$/status) >> 12 & 1)) >&2");
+    EXPECT_EQ(text("stderr"), "0\n");
+}
+
+// Not by the job, which has not begun, but by whoever waits before it.
+TEST_F(JobTest, AnAnnouncementIsTaken) {
+    hold_announcements();
+    EXPECT_FALSE(announced());
+    raise(SIGUSR1);
+    EXPECT_TRUE(announced());
+    EXPECT_FALSE(announced());
+    sigset_t held;
+    sigemptyset(&held);
+    sigaddset(&held, SIGUSR1);
+    sigprocmask(SIG_UNBLOCK, &held, nullptr);
+}
+
 TEST_F(JobTest, SecondSignalKillsTheWholeSession) {
     // A grandchild in its own process group, as mpirun creates them, that ignores SIGTERM.
     const std::string pid_file = (scratch.path() / "pid").string();
