@@ -50,11 +50,14 @@ class Patience {
     /// One poll or sleep.
     void wait(bool in_transit = false);
 
-    double seconds() const;  ///< waited so far
+    /// Waited so far, without the time in which this process was stopped: a batch system may
+    /// suspend all programs of a job for hours.
+    double seconds() const;
 
  private:
-    Clock::time_point start_ = Clock::now();
-    Clock::time_point last_ring_ = start_;
+    Clock::time_point last_look_ = Clock::now();
+    Clock::time_point last_ring_ = last_look_;
+    double waited_ = 0.0;  ///< up to the last look [s]
 };
 
 }  // namespace turbidite

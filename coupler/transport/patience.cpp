@@ -14,6 +14,7 @@ constexpr double hot = 50e-6;             // [s] of polling first: answers that 
 constexpr double share = 1.0 / 64.0;      // of the time waited: what a sleep may add to it, unrung
 constexpr double shortest_sleep = 20e-6;  // [s]
 constexpr double longest_sleep = 2e-3;    // [s]
+constexpr double longest_gap = 1.0;       // [s] between two looks of a process that is not stopped
 
 /// By default Linux wakes a sleeper up to 50 us late.
 void sleep_exactly() {
@@ -28,10 +29,12 @@ double seconds_since(Patience::Clock::time_point past) {
 }  // namespace
 
 double Patience::seconds() const {
-    return seconds_since(start_);
+    return waited_ + std::min(seconds_since(last_look_), longest_gap);
 }
 
 void Patience::wait(bool in_transit) {
+    waited_ = seconds();
+    last_look_ = Clock::now();
     if (in_transit) return std::this_thread::yield();  // the other end may need this core
     // Since the last ring: after one, polling begins again, since its frame comes by MPI and may
     // take a few looks more.

@@ -181,6 +181,15 @@ void end_session(pid_t child, const BlockedSignals& signals) {
         sigtimedwait(&signals.set(), nullptr, &tick);
 }
 
+/// Files that cannot be looked at now (a stale handle, say) tell nothing: the next look does.
+bool is_so(const std::function<bool()>& question) {
+    try {
+        return question && question();
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
 /// Whether a program has stayed without its children for too long. Open MPI 4.1's mpirun can wait
 /// for itself for ever after MPI_Abort (PMIx_server_finalize).
 class LeftAlone {
@@ -192,7 +201,7 @@ class LeftAlone {
             processes.begin(), processes.end(),
             [child](const Process& process) { return process.runs && process.id != child; });
         // Not before the first child: mpirun takes a moment to start its ranks.
-        seconds_ = alone && had_children() ? seconds_ + 1 : 0;
+        seconds_ = alone && is_so(had_children) ? seconds_ + 1 : 0;
         return seconds_ > patience;
     }
 
@@ -214,7 +223,7 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
     while (!has_ended(child)) {
         // Wakes at a signal at once, else every second for the checks below.
         const int signal = sigtimedwait(&signals.set(), nullptr, &second);
-        end.overdue = signal < 0 && order.overdue && order.overdue();
+        end.overdue = signal < 0 && is_so(order.overdue);
         left = signal < 0 && order.had_children && left_alone.too_long(child, order.had_children);
         if (end.overdue || left) {
             end_session(child, signals);

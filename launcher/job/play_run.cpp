@@ -25,7 +25,8 @@ namespace {
 // file appears with its code. Before the history begins there is no coupler to look for it, and
 // nothing to keep.
 bool request_stop(const RunFolder& folder, int signal) {
-    if (!std::filesystem::exists(folder.history())) return false;
+    std::error_code unread;  // not now, as on a file system that is away for a moment
+    if (!std::filesystem::exists(folder.history(), unread) && !unread) return false;
     const ExitCode code = signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
     std::string answer = "Stopping after the next window";
     try {

@@ -87,5 +87,21 @@ INSTANTIATE_TEST_SUITE_P(Adapters, SilentCoupler, ::testing::Values("standalone-
                              return std::string(info.param) == "yade-nscd" ? "Yade" : "Standalone";
                          });
 
+// As batch systems suspend a job, for longer than any limit: nobody has been silent, all were
+// stopped.
+class Suspended : public FailingRun {};
+
+TEST_F(Suspended, GoesOnAsIfNothingHadBeen) {
+    const pid_t run = start(4, "--set time.end=10 --set limits.stall_hard=2");
+    const std::vector<pid_t> all = processes("");
+    EXPECT_GE(all.size(), 5u);  // turbidite, mpirun, coupler, fluid, grains
+    for (const pid_t process : all) kill(process, SIGSTOP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5500));  // 2.5 limits.stall_hard
+    for (const pid_t process : all) kill(process, SIGCONT);
+    const Answer answer = end_of(run);
+    EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+    EXPECT_EQ(rows_of_history(), 201);
+}
+
 }  // namespace
 }  // namespace turbidite

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """terminal_test.py TURBIDITE: what commands print on a terminal of 60 columns, and on one that knows no escapes."""
 import fcntl
+import json
 import os
 import pty
 import select
@@ -53,6 +54,25 @@ class Terminal(unittest.TestCase):
         (self.folder / 'grains.csv').write_text('id,x,y\n0,abc,1\n1,900,1\n')
         (self.folder / 'full').mkdir()
         (self.folder / 'full/diary').write_text('mine')
+
+    def test_a_terminal_that_is_closed_ends_a_run_in_order(self):
+        """Its SIGHUP comes when nothing can be printed any more."""
+        ours, its = pty.openpty()
+        settings = ['fluid.enabled=false', 'grains.adapter=standalone-nscd', 'time.end=2000', 'output.interval=1']
+        child = subprocess.Popen([PROGRAM, 'run', 'case.yaml', '--out', 'run', *(f'--set={one}' for one in settings)],
+                                 stdin=its, stdout=its, stderr=its, cwd=self.folder, start_new_session=True,
+                                 preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
+                                 env=dict(os.environ, TURBIDITE_REPORT='off'))
+        os.close(its)
+        history = self.folder / 'run/history.csv'
+        while child.poll() is None and not (history.exists() and history.read_text().count('\n') > 2):
+            if select.select([ours], [], [], 0.1)[0]:
+                os.read(ours, 65536)
+        os.close(ours)
+        self.assertEqual(child.wait(60), 143)
+        record = json.loads((self.folder / 'run/run.json').read_text())
+        self.assertEqual(record['exit_code'], 143)
+        self.assertIn(f'w{record["windows_done"]:08}', os.listdir(self.folder / 'run/checkpoints'))
 
     def test_no_word_is_broken(self):
         """By the terminal, at its edge."""
