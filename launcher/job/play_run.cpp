@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 #include <signal.h>
+#include <stdio_ext.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -37,6 +39,13 @@ bool request_stop(const RunFolder& folder, int signal) {
     }
     print_on_stderr(fmt::format("\n{}; interrupt again to kill the job.\n", answer));
     return true;
+}
+
+/// A run has succeeded whether or not what it said on the way could be written.
+void forget_what_nobody_reads() {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    __fpurge(stdout);
+    std::clearerr(stdout);
 }
 
 /// Something to report on: a row of the history.
@@ -109,8 +118,9 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     if (!done) print_on_stderr(for_stderr(outcome_text(folder, outcome)));
     const bool due = report_wanted() && has_output(folder);
     const bool reported = !due || write_report(folder, programs);
-    if (done) fmt::print("{}", for_stdout(outcome_text(folder, outcome)));
+    if (done) std::fputs(for_stdout(outcome_text(folder, outcome)).c_str(), stdout);
     if (!reported) print_on_stderr("report.html could not be written; see above.\n");
+    forget_what_nobody_reads();
     return outcome;
 }
 

@@ -67,6 +67,12 @@ TEST_F(CommandLine, WhatCannotBePrintedChangesNoExitCodeButThatOfOutput) {
     const Answer lost = shell(check + quickstart + quick + " >/dev/full");
     EXPECT_EQ(lost.code, 4);
     EXPECT_SAYS(lost.err, "could not be written to standard output");
+    // What a run gives is in its folder.
+    EXPECT_EQ(shell(program + " run " + quickstart + quick + " --set time.end=0.1" +
+                    into_run_folder() + " >/dev/full")
+                  .code,
+              0);
+    EXPECT_EQ(record().at("status"), "done");
     // Nobody who closes it misses anything.
     EXPECT_EQ(shell(check + quickstart + quick + " >&-").code, 0);
 }
