@@ -6,9 +6,6 @@
 #     PREFIX/share/turbidite             as the source tree: configs, launcher/report, launcher/python
 #     PREFIX/lib/python3/dist-packages   a link to launcher/python/turbidite, where Debian's Python looks with PREFIX /usr
 set(run_root lib/turbidite)
-# Whatever the umask of whoever installs or packages.
-set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
-    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(programs turbidite turbidite-member turbidite-partner turbidite-replay turbidite-coupler turbidite-fluid-box
              turbidite-grains turbidite-grains-md)
 set(libraries turbidite_world_isolation turbidite_c)
