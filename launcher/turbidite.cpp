@@ -138,9 +138,8 @@ void open_standard_streams() {
     }
 }
 
-/// On stdout, as on a full disk.
 bool all_was_written() {
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+    if (stdout_took_all()) return true;
     tell_on_stderr("what this command has printed could not be written to standard output");
     return false;
 }

@@ -49,6 +49,10 @@ std::string for_stderr(const std::string& lines) {
     return for_stream(STDERR_FILENO, lines);
 }
 
+bool stdout_took_all() {
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
 void print_on_stderr(const std::string& lines) {
     std::fputs(lines.c_str(), stderr);
 }

@@ -20,6 +20,9 @@ std::string for_stdout(const std::string& lines);
 /// The same for stderr.
 std::string for_stderr(const std::string& lines);
 
+/// Flushes stdout. Whether all that was printed could be written: on a full disk it cannot.
+bool stdout_took_all();
+
 /// Writes to stderr. What nobody takes any more, as on a full disk or in a closed terminal, is
 /// lost: no run ends for it.
 void print_on_stderr(const std::string& lines);

@@ -157,6 +157,10 @@ bool in_yade(const Settings& settings) {
     return grains_adapter(settings).host == GrainsHost::yade;
 }
 
+double cores_of_this_machine() {
+    return std::max(1u, std::thread::hardware_concurrency());
+}
+
 }  // namespace
 
 double WindowForecast::seconds() const {
@@ -170,11 +174,11 @@ double cores_for_a_job() {
             // So that no warning compares the ranks of a batch job with the cores of the machine it
             // is sent from.
             return std::numeric_limits<double>::infinity();
-    return std::max(1u, std::thread::hardware_concurrency());
+    return cores_of_this_machine();
 }
 
 double cores_here() {
-    double cores = std::max(1u, std::thread::hardware_concurrency());
+    double cores = cores_of_this_machine();
     for (const char* tasks : {"SLURM_NTASKS", "PBS_NP"})
         if (const char* given = std::getenv(tasks); given != nullptr && std::atoi(given) > 0)
             cores = std::min<double>(cores, std::atoi(given));

@@ -40,6 +40,13 @@ class JobTest : public ::testing::Test {
     }
 };
 
+void unblock(int signal) {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, signal);
+    sigprocmask(SIG_UNBLOCK, &set, nullptr);
+}
+
 // Signals are handled by the thread that waits in run_job: this process blocks them everywhere
 // else.
 class Later {
@@ -150,10 +157,7 @@ TEST_F(JobTest, AnAnnouncementBeforeTheJobIsARequest) {
     EXPECT_EQ(end.signal, SIGUSR1);
     EXPECT_FALSE(end.killed);
     EXPECT_EQ(end.status, 128 + SIGUSR1);
-    sigset_t held;
-    sigemptyset(&held);
-    sigaddset(&held, SIGUSR1);
-    sigprocmask(SIG_UNBLOCK, &held, nullptr);
+    unblock(SIGUSR1);
 }
 
 TEST_F(JobTest, FirstSignalIsARequest) {
@@ -176,10 +180,8 @@ TEST_F(JobTest, AnIgnoredHangupStaysIgnored) {
         EXPECT_EQ(end.status, 7);
         EXPECT_EQ(requests, 0);
     }
-    sigset_t blocked_by_later, pending;
-    sigemptyset(&blocked_by_later);
-    sigaddset(&blocked_by_later, SIGHUP);
-    sigprocmask(SIG_UNBLOCK, &blocked_by_later, nullptr);
+    unblock(SIGHUP);  // Later has blocked it
+    sigset_t pending;
     sigpending(&pending);
     EXPECT_FALSE(sigismember(&pending, SIGHUP));
     signal(SIGHUP, before);
@@ -204,10 +206,7 @@ TEST_F(JobTest, AnAnnouncementIsTaken) {
     raise(SIGUSR1);
     EXPECT_TRUE(announced());
     EXPECT_FALSE(announced());
-    sigset_t held;
-    sigemptyset(&held);
-    sigaddset(&held, SIGUSR1);
-    sigprocmask(SIG_UNBLOCK, &held, nullptr);
+    unblock(SIGUSR1);
 }
 
 TEST_F(JobTest, SecondSignalKillsTheWholeSession) {
