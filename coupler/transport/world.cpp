@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -132,7 +132,8 @@ std::string bell_name(int world_rank) {
 }
 
 struct StartWatch::State {
-    std::atomic<bool> armed{true};
+    std::mutex use;  // of what the callbacks refer to: held while they are asked
+    bool armed = true;
 };
 
 StartWatch::StartWatch(double limit, std::function<bool()> hopeless,
@@ -144,15 +145,18 @@ StartWatch::StartWatch(double limit, std::function<bool()> hopeless,
         using Clock = std::chrono::steady_clock;
         const auto end = Clock::now() + std::chrono::duration<double>(limit);
         auto ask = Clock::now() + std::chrono::seconds(1);
-        while (state->armed && Clock::now() < end) {
+        for (bool given_up = false; !given_up;) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
-            if (!state->armed || Clock::now() < ask) continue;
-            if (hopeless()) break;
-            ask = Clock::now() + std::chrono::seconds(1);
+            const std::scoped_lock lock(state->use);
+            if (!state->armed) return;
+            given_up = Clock::now() >= end;
+            if (Clock::now() >= ask) {
+                given_up = given_up || hopeless();
+                ask = Clock::now() + std::chrono::seconds(1);
+            }
+            // Without the handlers of exit(): the main thread hangs inside MPI.
+            if (given_up) _exit(static_cast<int>(expired()));
         }
-        if (!state->armed) return;
-        // Without the handlers of exit(): the main thread hangs inside MPI.
-        _exit(static_cast<int>(expired()));
     }).detach();
 }
 
@@ -160,6 +164,7 @@ StartWatch::~StartWatch() {
     disarm();
 }
 void StartWatch::disarm() {
+    const std::scoped_lock lock(state_->use);
     state_->armed = false;
 }
 

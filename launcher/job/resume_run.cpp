@@ -233,15 +233,23 @@ void move_all(const std::vector<fs::path>& entries, const fs::path& into) {
     for (const fs::path& entry : entries) fs::rename(entry, into / entry.filename());
 }
 
+/// There while `decompose_again` is at work: what it left when it was cut off is not to be used.
+fs::path unfinished_decomposition(const RunFolder& folder) {
+    return folder.fluid() / "decomposing";
+}
+
 /// The mesh for another number of ranks than it has. Fields of the ranks that have written the
-/// checkpoint stay in fluid/until-SET, from where they come back with their number.
+/// checkpoint stay in fluid/until-SET, from where they come back with their number. May be cut off
+/// at any place and called again.
 void decompose_again(const Settings& settings, const RunFolder& folder, const Chosen& chosen) {
     const std::int64_t ranks = settings.integer("fluid.ranks");
     const std::int64_t wrote = chosen.manifest.settings.integer("fluid.ranks");
     const fs::path aside = folder.fluid() / ("until-" + chosen.name);
+    write_whole(unfinished_decomposition(folder), [](std::ostream&) {});
     const std::vector<fs::path> present = processor_folders(folder.fluid());
-    if (std::ssize(present) == wrote)
-        move_all(present, aside);
+    const std::int64_t there = std::ssize(present) + std::ssize(processor_folders(aside));
+    if (wrote > 1 && there == wrote)
+        move_all(present, aside);  // all, or the rest of a move that was cut off
     else  // of an attempt since then, which has written nothing that stays
         for (const fs::path& own : present) fs::remove_all(own);
     write_decomposition(settings, folder.fluid());
@@ -252,6 +260,7 @@ void decompose_again(const Settings& settings, const RunFolder& folder, const Ch
     } else if (ranks > 1) {
         decompose_fluid_case(folder.fluid(), folder.log("decomposePar"));
     }
+    fs::remove(unfinished_decomposition(folder));
 }
 
 void prepare_fluid(const ResolvedCase& resolved, const RunFolder& folder, const Chosen& chosen) {
@@ -269,7 +278,8 @@ void prepare_fluid(const ResolvedCase& resolved, const RunFolder& folder, const 
     // Of what is there, which need not be of the checkpoint: a part may have ended before its
     // first.
     const std::int64_t ranks = std::max<std::int64_t>(1, std::ssize(processors));
-    if (now.integer("fluid.ranks") != ranks) decompose_again(now, folder, chosen);
+    if (now.integer("fluid.ranks") != ranks || fs::exists(unfinished_decomposition(folder)))
+        decompose_again(now, folder, chosen);
 }
 
 void note_overrides(nlohmann::ordered_json& record, const std::vector<std::string>& overrides) {

@@ -246,6 +246,34 @@ TEST_F(Resume, AnotherNumberOfFluidRanksMayBeTakenBack) {
     EXPECT_TRUE(fs::exists(scratch.path() / "r/logs/part-6"));
 }
 
+// The folders of processors are put aside one by one.
+TEST_F(Resume, FieldsOutliveAChangeOfFluidRanksThatWasCutOff) {
+    scratch.write("wet.yaml", wet_case);
+    expect_done(
+        turbidite("run wet.yaml --set grains.adapter=standalone-nscd --set fluid.ranks=2 "
+                  "--set time.end=0.5 --set output.fields_interval=0.5 --out r"));
+    const fs::path fluid = scratch.path() / "r/fluid";
+    EXPECT_EQ(turbidite("resume r --set time.end=0.6 --set fluid.ranks=1 --dry-run").code, 0);
+    fs::path aside;
+    for (const auto& entry : fs::directory_iterator(fluid))
+        if (entry.path().filename().string().rfind("until-", 0) == 0) aside = entry.path();
+    ASSERT_TRUE(fs::exists(aside / "processor1/0.5/U"));
+    fs::rename(aside / "processor1", fluid / "processor1");
+    EXPECT_EQ(turbidite("resume r --set time.end=0.6 --set fluid.ranks=3 --dry-run").code, 0);
+    EXPECT_TRUE(fs::exists(aside / "processor1/0.5/U"));
+    expect_done(turbidite("resume r --set time.end=0.6 --set fluid.ranks=2"));
+    for (const char* field : {"processor0/0.5/U", "processor1/0.5/U", "processor1/constant"})
+        EXPECT_TRUE(fs::exists(fluid / field)) << field;
+    EXPECT_FALSE(fs::exists(fluid / "decomposing"));
+
+    // As many folders as ranks, but of a decomposition that did not end.
+    EXPECT_EQ(turbidite("resume r --set time.end=0.7 --set fluid.ranks=3 --dry-run").code, 0);
+    fs::remove_all(fluid / "processor1/constant");
+    scratch.write("r/fluid/decomposing", "");
+    expect_done(turbidite("resume r --set time.end=0.7 --set fluid.ranks=3"));
+    EXPECT_FALSE(fs::exists(fluid / "decomposing"));
+}
+
 TEST_F(Resume, ADamagedCheckpointIsPassedOver) {
     scratch.write("case.yaml", wet_case);
     const std::string changes = " --set grains.adapter=standalone-nscd";
