@@ -17,6 +17,7 @@
 #include "coupler/transport/recording.hpp"
 #include "launcher/case/case_file.hpp"
 #include "launcher/case/files/run_folder.hpp"
+#include "launcher/job/folder/claim.hpp"
 
 namespace {
 
@@ -51,13 +52,23 @@ HubFiles hub_files(const RunFolder& folder) {
     return {folder.history(), folder.grains(), folder.log("coupler"), folder.record(), folder.root};
 }
 
+CouplerState coupler_state(const Bytes& bytes, const std::string& set) {
+    try {
+        return decode<CouplerState>(bytes);
+    } catch (const MalformedPayload& fault) {
+        throw Failure(ExitCode::participant_failed,
+                      fmt::format("{}/coupler: {}. Was it written by another version?",
+                                  CheckpointSets::folder(set), fault.what()));
+    }
+}
+
 std::optional<Resumption> resumption(const std::string& directory, const std::string& set,
                                      const Settings& settings) {
     if (set.empty()) return std::nullopt;
     const Manifest manifest = CheckpointSets(directory).manifest(set);
     const Bytes bytes =
         load(std::filesystem::path(directory) / CheckpointSets::folder(set), manifest.coupler);
-    Resumption resumed{set, decode<CouplerState>(bytes)};
+    Resumption resumed{set, coupler_state(bytes, set)};
     const auto ranks = static_cast<std::size_t>(settings.integer("grains.ranks"));
     if (manifest.grains.size() != ranks) share_out(resumed.state, static_cast<int>(ranks));
     return resumed;
@@ -97,7 +108,9 @@ class MaybeRecorded {
         const std::string& wanted = resolved.settings.text("coupling.recording");
         const std::string name = role_name(role);
         if (channel && (wanted == "both" || wanted == name))
-            channel_ = &recording_.emplace(*channel, folder.recording(name));
+            channel_ = &recording_.emplace(*channel, folder.recording(name), [](const auto& text) {
+                std::fprintf(stderr, "turbidite: warning: %s\n", text.c_str());
+            });
     }
     Channel* channel() { return channel_; }
 
@@ -135,7 +148,7 @@ int main_program(const std::string& directory, const std::string& set,
     return static_cast<int>(ExitCode::terminated);
 } catch (const std::exception& error) {
     const auto* failure = dynamic_cast<const Failure*>(&error);
-    const ExitCode code = failure ? failure->code() : ExitCode::participant_failed;
+    const ExitCode code = failure ? code_in_job(failure->code()) : ExitCode::participant_failed;
     std::fprintf(stderr, "turbidite-coupler: %s\n", error.what());
     std::fflush(nullptr);
     record_failure(directory, code, error.what());
@@ -151,6 +164,15 @@ int main(int argc, char** argv) {
         return static_cast<int>(ExitCode::bad_input);
     }
     keep_freed_memory();
+    const std::string directory = argv[1], set = argc == 3 ? argv[2] : "";
+    std::shared_ptr<RunLock> lock;
+    try {
+        lock = claim(RunFolder{directory}, set);
+    } catch (const Failure& failure) {
+        // Not recorded in a folder that is another's, or has its own outcome.
+        std::fprintf(stderr, "turbidite-coupler: %s\n", failure.what());
+        return static_cast<int>(failure.code());
+    }
     std::optional<MpiEnvironment> mpi;
-    return main_program(argv[1], argc == 3 ? argv[2] : "", mpi);
+    return main_program(directory, set, mpi);
 }

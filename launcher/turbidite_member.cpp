@@ -130,6 +130,8 @@ int exit_code(const Member& member, int status, pid_t child, const std::string& 
     const bool over = read_whole(member.record()) != before && has_verdict(member.record());
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
     if (over || asked_to_end) return code;
+    // A folder that is not its own to play in: it has told why, and leaves nothing there.
+    if (member.role == Role::coupler && code == static_cast<int>(ExitCode::bad_input)) return code;
     if (!write_first_end(member.run,
                          {ExitCode::participant_failed, rank_name(member.role, member.rank),
                           end_text(member, status, child)}) &&

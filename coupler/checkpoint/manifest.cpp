@@ -9,8 +9,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// 2: maxima of the motion and of contacts in the part of the coupler.
-constexpr int format = 2;
+// Of the manifest and of the coupler's part (coupler_state.cpp, output_state.cpp): one higher with
+// every change of either. 2: maxima of the motion and of contacts; 3: work of films, lengths of the
+// outputs at the end of a part.
+constexpr int format = 3;
 
 Json file_json(const StoredFile& file) {
     return {{"name", file.name}, {"bytes", file.bytes}, {"crc32", file.crc32}};

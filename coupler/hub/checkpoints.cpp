@@ -35,17 +35,17 @@ void Checkpoints::meet_participants() {
         }
 }
 
-bool Checkpoints::write(const CouplerState& state) {
+bool Checkpoints::write(std::int64_t windows, const std::function<CouplerState()>& state) {
     if (!able_) return false;
     const auto start = CheckpointRule::Clock::now();
     const std::string fault = attempt(state);
     if (fault.empty()) {
         ++written_;
-        last_ = state.windows;
+        last_ = windows;
     } else {
         sets_.remove_unfinished();
-        print_(fmt::format("turbidite: warning: no checkpoint after window {}: {}. {}",
-                           state.windows, fault, sets_left()));
+        print_(fmt::format("turbidite: warning: no checkpoint after window {}: {}. {}", windows,
+                           fault, sets_left()));
     }
     // After a failure as well: a full disk is not tried again in every window.
     rule_.written();
@@ -65,15 +65,17 @@ std::string Checkpoints::fault_of(Action action) {
     try {
         action();
         return {};
-    } catch (const Failure& failure) {
-        return failure.what();
+    } catch (const std::exception& error) {
+        return error.what();
     }
 }
 
 /// Why the set could not be written; empty if it is in its place.
-std::string Checkpoints::attempt(const CouplerState& state) {
+std::string Checkpoints::attempt(const std::function<CouplerState()>& state_now) {
     std::string folder;
+    CouplerState state;
     std::string fault = fault_of([&] {
+        state = state_now();
         sets_.remove_unfinished();
         folder = sets_.begin(state.windows);
     });

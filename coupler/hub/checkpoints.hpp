@@ -30,8 +30,9 @@ class Checkpoints {
     bool by_rule() const { return rule_.any() && able_; }
     bool due(std::int64_t windows) const { return able_ && rule_.due(windows); }
 
-    /// Between two windows. Returns whether there is a new set.
-    bool write(const CouplerState& state);
+    /// Between two windows, with the state after so many. What it throws counts as a set that
+    /// cannot be written. Returns whether there is a new set.
+    bool write(std::int64_t windows, const std::function<CouplerState()>& state);
 
     /// Before the first window of a resumed run: every rank takes its state from the set.
     void restore(const std::string& name);
@@ -45,7 +46,7 @@ class Checkpoints {
  private:
     template <class Action>
     static std::string fault_of(Action action);
-    std::string attempt(const CouplerState& state);
+    std::string attempt(const std::function<CouplerState()>& state);
     Manifest described(const CouplerState& state) const;
     std::vector<StoredFile> collect(ParticipantLink& link, std::string& fault);
     std::string sets_left() const;

@@ -108,7 +108,11 @@ void Hub::warn_of_courant(double before) {
 void Hub::finish(const Window& window, bool out_of_turn, bool save_it) {
     if (window.write_output && out_of_turn) return finish_out_of_turn(window, save_it);
     if (window.write_output) write_output(window);
-    if (save_it) checkpoints_.write(state());
+    if (save_it) save();
+}
+
+void Hub::save() {
+    checkpoints_.write(output_.statistics().windows_done, [this] { return state(); });
 }
 
 /// A row out of turn, at the end of this part of the run, is no longer there once a next part plays
@@ -116,16 +120,30 @@ void Hub::finish(const Window& window, bool out_of_turn, bool save_it) {
 /// without it, and those with it for the case that none is left.
 void Hub::finish_out_of_turn(const Window& window, bool save_it) {
     if (!save_it) return write_output(window);
-    CouplerState without_row = state();
+    CouplerState before;
+    std::exception_ptr unknown;  // why it is, which must not cost the row
+    try {
+        before = state();
+    } catch (const std::exception&) {
+        unknown = std::current_exception();
+    }
+    const auto without_row = [&] {
+        if (unknown) std::rethrow_exception(unknown);
+        return before;
+    };
+    const std::int64_t windows = output_.statistics().windows_done;
     try {
         write_output(window);
     } catch (...) {
         // A row that cannot be written ends the run, but loses no checkpoint.
-        checkpoints_.write(without_row);
+        checkpoints_.write(windows, without_row);
         throw;
     }
-    without_row.output.lengths_at_end = output_.lengths();
-    checkpoints_.write(without_row);
+    checkpoints_.write(windows, [&] {
+        CouplerState state = without_row();
+        state.output.lengths_at_end = output_.lengths();
+        return state;
+    });
 }
 
 void Hub::write_output(const Window& window) {
@@ -195,7 +213,7 @@ RunStatus Hub::run() {
         progress_.log(end_from_outside + ("\n" + wait_for_table()));
         throw;
     } catch (const Failure& failure) {
-        status_.code = failure.code();
+        status_.code = code_in_job(failure.code());
         status_.reason = failure.what();
     } catch (const std::exception& error) {
         status_.code = ExitCode::participant_failed;
@@ -295,7 +313,7 @@ void Hub::name_by_start_records() {
 
 void Hub::begin_output(Motion initial) {
     output_.begin(std::move(initial));
-    if (checkpoints_.by_rule()) checkpoints_.write(state());
+    if (checkpoints_.by_rule()) save();
 }
 
 void Hub::go_on_from(const Resumption& earlier) {

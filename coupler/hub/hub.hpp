@@ -92,6 +92,7 @@ class Hub {
     void play(const Window& window);
     void warn_of_courant(double before);
     void finish(const Window& window, bool out_of_turn, bool save);
+    void save();
     void finish_out_of_turn(const Window& window, bool save_it);
     void write_output(const Window& window);
     Window window(std::int64_t index, bool written) const;

@@ -95,8 +95,14 @@ void ParticipantLink::take_in(int rank, FramedMessage message) {
     // Against the call order before the payload is looked at.
     from.order.received(message.envelope, to_coupler);
     note_change(rank);
-    if (message.envelope.kind == Kind::failure) raise(rank, decode<Verdict>(message.payload()));
+    if (message.envelope.kind == Kind::failure) raise(rank, verdict_of(rank, message));
     from.inbox.push_back(std::move(message));
+}
+
+Verdict ParticipantLink::verdict_of(int rank, const FramedMessage& message) const try {
+    return decode<Verdict>(message.payload());
+} catch (const MalformedPayload& fault) {
+    refuse_payload(rank, Kind::failure, fault.what());
 }
 
 void ParticipantLink::raise(int rank, const Verdict& verdict) const {

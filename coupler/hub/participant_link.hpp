@@ -115,6 +115,7 @@ class ParticipantLink {
     void take_in(int rank, FramedMessage message);
     void note_change(int rank);
     std::vector<FramedMessage> take_messages(Kind kind);
+    Verdict verdict_of(int rank, const FramedMessage& message) const;
     [[noreturn]] void raise(int rank, const Verdict& verdict) const;
     [[noreturn]] void refuse_payload(int rank, Kind kind, const std::string& fault) const;
 

@@ -7,8 +7,6 @@
 namespace turbidite {
 namespace {
 
-constexpr auto contacts_collection = "contacts.pvd";
-
 /// t = e_z x n.
 Vec3 tangent(const ContactRecord& contact) {
     return {-contact.normal[1], contact.normal[0], 0.0};
@@ -42,7 +40,7 @@ std::vector<Vec3> line_ends(const Motion& state) {
 }  // namespace
 
 void ContactSeries::resume(std::int64_t length) {
-    collection_.emplace(folder_ / contacts_collection, length);
+    collection_.emplace(folder_ / collection_name, length);
 }
 
 void ContactSeries::write(double time, std::int64_t window, double step, const Motion& state) {
@@ -50,7 +48,7 @@ void ContactSeries::write(double time, std::int64_t window, double step, const M
     const std::string name = fmt::format("contacts_{:08d}.vtp", window);
     write_lines(name, step, state);
     // The first contacts that are sent: programs that send none leave no empty series.
-    if (!collection_) collection_.emplace(folder_ / contacts_collection);
+    if (!collection_) collection_.emplace(folder_ / collection_name);
     collection_->add(time, {name});
 }
 

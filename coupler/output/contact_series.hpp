@@ -19,6 +19,9 @@ namespace turbidite {
 
 class ContactSeries {
  public:
+    /// In the folder of the series.
+    static constexpr const char* collection_name = "contacts.pvd";
+
     explicit ContactSeries(std::filesystem::path folder, int dimension = 2)
         : folder_(std::move(folder)), dimension_(dimension) {}
 

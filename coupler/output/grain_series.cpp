@@ -11,8 +11,6 @@
 namespace turbidite {
 namespace {
 
-constexpr auto grains_collection = "grains.pvd";
-
 std::filesystem::path made(std::filesystem::path folder) {
     std::filesystem::create_directories(folder);
     return folder;
@@ -21,11 +19,11 @@ std::filesystem::path made(std::filesystem::path folder) {
 }  // namespace
 
 GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes)
-    : GrainSeries(folder, shapes, vtk::Collection(made(folder) / grains_collection)) {}
+    : GrainSeries(folder, shapes, vtk::Collection(made(folder) / collection_name)) {}
 
 GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes,
                          std::int64_t length)
-    : GrainSeries(folder, shapes, vtk::Collection(folder / grains_collection, length)) {}
+    : GrainSeries(folder, shapes, vtk::Collection(folder / collection_name, length)) {}
 
 GrainSeries::GrainSeries(std::filesystem::path folder, const ShapeTable& shapes,
                          vtk::Collection series)

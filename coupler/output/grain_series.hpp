@@ -18,6 +18,9 @@ namespace turbidite {
 
 class GrainSeries {
  public:
+    /// In the folder of the series.
+    static constexpr const char* collection_name = "grains.pvd";
+
     GrainSeries(std::filesystem::path folder, const ShapeTable& shapes);
 
     /// Goes on with the series of an earlier part of the run.

@@ -101,19 +101,23 @@ OutputState decode(View bytes) {
     return state;
 }
 
-void cut_to(const std::filesystem::path& file, std::int64_t length) {
+void require_length(const std::filesystem::path& file, std::int64_t length) {
     std::error_code error;
     const std::uintmax_t present = std::filesystem::file_size(file, error);
-    const auto wanted = static_cast<std::uintmax_t>(length);
     // A file may have become longer since the checkpoint, never shorter.
-    if (error || present < wanted)
+    if (error || present < static_cast<std::uintmax_t>(length))
         throw Failure(
             ExitCode::bad_input,
             fmt::format("{} had {} bytes at the checkpoint and now {}: it was changed since. Put "
                         "the original back, or start a new run with --from",
                         file.string(), length,
                         error ? "is missing" : fmt::format("has {}", present)));
-    std::filesystem::resize_file(file, wanted, error);
+}
+
+void cut_to(const std::filesystem::path& file, std::int64_t length) {
+    require_length(file, length);
+    std::error_code error;
+    std::filesystem::resize_file(file, static_cast<std::uintmax_t>(length), error);
     if (error)
         throw Failure(ExitCode::participant_failed,
                       fmt::format("cannot write {}: {}", file.string(), error.message()));

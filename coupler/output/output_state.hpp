@@ -32,8 +32,11 @@ Bytes encode(const OutputState& state);
 template <>
 OutputState decode(View bytes);
 
-/// Cuts a file to `length` bytes. Throws Failure (bad input) if it is missing or shorter: it was
-/// changed since the checkpoint, and rows of it are lost.
+/// Throws Failure (bad input) if a file is missing or shorter than `length` bytes: it was changed
+/// since the checkpoint, and rows of it are lost.
+void require_length(const std::filesystem::path& file, std::int64_t length);
+
+/// Cuts it to `length` bytes. Throws as above.
 void cut_to(const std::filesystem::path& file, std::int64_t length);
 
 }  // namespace turbidite

@@ -15,6 +15,9 @@ namespace turbidite {
 
 class ProbeSeries {
  public:
+    /// In the run folder.
+    static constexpr const char* file_name = "probes.csv";
+
     ProbeSeries(std::filesystem::path file, const RunValues& run)
         : file_(std::move(file)), run_(run) {}
 

@@ -14,23 +14,40 @@ RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem
       history_(history, run, shapes),
       grains_(series, shapes),
       contacts_(series, run.dimension),
-      probes_(history.parent_path() / "probes.csv", run),
+      probes_(history.parent_path() / ProbeSeries::file_name, run),
       statistics_(run) {}
+
+namespace {
+
+/// Of all files before the first is cut: one that was changed is found with the others as they
+/// were.
+const OutputLengths& required(const std::filesystem::path& history,
+                              const std::filesystem::path& series, const OutputLengths& lengths) {
+    require_length(history, lengths.history);
+    require_length(series / GrainSeries::collection_name, lengths.grains);
+    if (lengths.contacts >= 0)
+        require_length(series / ContactSeries::collection_name, lengths.contacts);
+    if (lengths.probes >= 0)
+        require_length(history.parent_path() / ProbeSeries::file_name, lengths.probes);
+    return lengths;
+}
+
+}  // namespace
 
 RunOutput::RunOutput(const std::filesystem::path& history, const std::filesystem::path& series,
                      const RunValues& run, const ShapeTable& shapes, const OutputState& earlier)
     : wet_(run.wet),
-      history_(history, run, shapes, earlier.lengths.history),
+      history_(history, run, shapes, required(history, series, earlier.lengths).history),
       grains_(series, shapes, earlier.lengths.grains),
       contacts_(series, run.dimension),
-      probes_(history.parent_path() / "probes.csv", run),
+      probes_(history.parent_path() / ProbeSeries::file_name, run),
       statistics_(run),
       since_row_(earlier.since_row) {
     std::error_code none;  // files that began later begin again
     if (earlier.lengths.contacts >= 0)
         contacts_.resume(earlier.lengths.contacts);
     else
-        std::filesystem::remove(series / "contacts.pvd", none);
+        std::filesystem::remove(series / ContactSeries::collection_name, none);
     if (earlier.lengths.probes >= 0)
         probes_.resume(earlier.lengths.probes);
     else
@@ -47,13 +64,14 @@ OutputState RunOutput::saved() {
 OutputLengths RunOutput::lengths() {
     OutputLengths lengths;
     lengths.history = history_.length();
-    // The checkpoint will say how long this file is: so much of it must be there after a power cut.
+    // The checkpoint will say how long these files are: so much of them, and all that they name,
+    // must be there after a power cut.
     put_on_disk(history_.file());
     lengths.grains = grains_.collection().length();
-    put_on_disk(grains_.collection().file());
+    grains_.collection().put_on_disk();
     if (vtk::Collection* contacts = contacts_.collection()) {
         lengths.contacts = contacts->length();
-        put_on_disk(contacts->file());
+        contacts->put_on_disk();
     }
     lengths.probes = probes_.length();
     if (lengths.probes >= 0) put_on_disk(probes_.file());

@@ -6,6 +6,7 @@
 
 #include "coupler/output/output_state.hpp"
 #include "coupler/protocol/failure.hpp"
+#include "coupler/protocol/files/stored_file.hpp"
 #include "coupler/protocol/files/whole_file.hpp"
 
 namespace turbidite::vtk {
@@ -77,6 +78,17 @@ void Collection::add(double time, const std::vector<std::string>& parts) {
         text += fmt::format("<DataSet timestep=\"{:.9g}\" part=\"{}\" file=\"{}\"/>\n", time, part,
                             parts[part]);
     write(text);
+    not_on_disk_.insert(not_on_disk_.end(), parts.begin(), parts.end());
+}
+
+void Collection::put_on_disk() {
+    const std::filesystem::path folder = file_.parent_path();
+    for (const std::string& part : not_on_disk_)
+        // One that somebody has removed since is not waited for.
+        if (std::filesystem::exists(folder / part)) turbidite::put_on_disk(folder / part);
+    if (!not_on_disk_.empty()) turbidite::put_on_disk(folder);  // their names
+    not_on_disk_.clear();
+    turbidite::put_on_disk(file_);
 }
 
 // The next entry and its end tags overwrite the present end tags in one write.

@@ -82,11 +82,15 @@ class Collection {
     /// Failure when the disk is full.
     void add(double time, const std::vector<std::string>& parts);
 
+    /// Waits until the disk has the series and all files that it names. Throws Failure.
+    void put_on_disk();
+
  private:
     void write(const std::string& text);
 
     std::filesystem::path file_;
     std::ofstream out_;
+    std::vector<std::string> not_on_disk_;  ///< parts that were added since the last call
 };
 
 }  // namespace turbidite::vtk

@@ -53,9 +53,8 @@ bool Session::guarded(Action action) {
         throw;
     } catch (const Failure& failure) {
         // Bad input is what the launcher says before a job: within one the program has failed.
-        const ExitCode code =
-            failure.code() == ExitCode::bad_input ? ExitCode::participant_failed : failure.code();
-        verdict = conversation.fail({static_cast<int>(code), failure.what()});
+        verdict =
+            conversation.fail({static_cast<int>(code_in_job(failure.code())), failure.what()});
     } catch (const std::exception& error) {
         verdict = conversation.fail({static_cast<int>(ExitCode::participant_failed), error.what()});
     } catch (...) {

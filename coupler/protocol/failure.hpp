@@ -21,6 +21,11 @@ enum class ExitCode : int {
     terminated = 143,
 };
 
+/// Of an error within a job, where it is too late for bad input.
+inline ExitCode code_in_job(ExitCode code) {
+    return code == ExitCode::bad_input ? ExitCode::participant_failed : code;
+}
+
 /// An error that ends the run, with the exit code it ends with.
 class Failure : public std::runtime_error {
  public:

@@ -117,8 +117,7 @@ class BlockWriter {
     explicit BlockWriter(char* to) : to_(to) {}
     template <class Number>
     void operator()(const Number& value) {
-        using Wide = std::conditional_t<std::is_floating_point_v<Number>, double, std::int64_t>;
-        const Wide wide = static_cast<Wide>(value);
+        const auto wide = static_cast<Wide<Number>>(value);
         std::memcpy(to_, &wide, sizeof wide);
         to_ += sizeof wide;
     }
@@ -132,10 +131,9 @@ class BlockReader {
     explicit BlockReader(const char* from) : from_(from) {}
     template <class Number>
     void operator()(Number& value) {
-        using Wide = std::conditional_t<std::is_floating_point_v<Number>, double, std::int64_t>;
-        Wide wide;
+        Wide<Number> wide;
         std::memcpy(&wide, from_, sizeof wide);
-        value = static_cast<Number>(wide);
+        value = narrowed<Number>(wide);
         from_ += sizeof wide;
     }
 

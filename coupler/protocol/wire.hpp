@@ -35,6 +35,23 @@ class MalformedPayload : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// How numbers travel: a double, or a signed integer, of eight bytes.
+template <class Number>
+using Wide = std::conditional_t<std::is_floating_point_v<Number>, double, std::int64_t>;
+
+/// The number that was sent as `wide`. Throws MalformedPayload if Number cannot be it: of a program
+/// that writes shorter integers into places of eight bytes.
+template <class Number>
+Number narrowed(Wide<Number> wide) {
+    const auto value = static_cast<Number>(wide);
+    if constexpr (std::is_integral_v<Number>)
+        if (static_cast<std::int64_t>(value) != wide)
+            throw MalformedPayload(
+                "holds " + std::to_string(wide) + ", which " +
+                (std::is_same_v<Number, bool> ? "is neither 0 nor 1" : "is out of range there"));
+    return value;
+}
+
 /// Appends numbers and texts to a payload.
 class Writer {
  public:
@@ -42,8 +59,7 @@ class Writer {
 
     template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
     void operator()(const Number& value) {
-        using Wide = std::conditional_t<std::is_floating_point_v<Number>, double, std::int64_t>;
-        const Wide wide = static_cast<Wide>(value);
+        const auto wide = static_cast<Wide<Number>>(value);
         const std::size_t at = out_.size();
         out_.resize(at + sizeof wide);
         std::memcpy(out_.data() + at, &wide, sizeof wide);
@@ -67,10 +83,9 @@ class Reader {
 
     template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
     void operator()(Number& value) {
-        using Wide = std::conditional_t<std::is_floating_point_v<Number>, double, std::int64_t>;
-        Wide wide;
+        Wide<Number> wide;
         std::memcpy(&wide, take(sizeof wide), sizeof wide);
-        value = static_cast<Number>(wide);
+        value = narrowed<Number>(wide);
     }
     void operator()(std::string& text);
 

@@ -20,7 +20,8 @@ std::optional<std::int64_t> read_number(std::ifstream& in) {
 
 }  // namespace
 
-RecordingWriter::RecordingWriter(std::filesystem::path file, int peers) : file_(std::move(file)) {
+RecordingWriter::RecordingWriter(std::filesystem::path file, int peers, Tell tell)
+    : file_(std::move(file)), tell_(std::move(tell)) {
     std::filesystem::create_directories(file_.parent_path());
     out_.open(file_, std::ios::binary);
     for (const std::int64_t number : {magic, version, std::int64_t{peers}})
@@ -29,19 +30,29 @@ RecordingWriter::RecordingWriter(std::filesystem::path file, int peers) : file_(
         throw Failure(ExitCode::participant_failed, "cannot write " + file_.string());
 }
 
+RecordingWriter::~RecordingWriter() {
+    if (out_.is_open() && !out_.flush()) give_up();
+}
+
 void RecordingWriter::write(bool sent_by_coupler, int peer, const Bytes& bytes) {
+    if (!out_.is_open()) return;
     for (const std::int64_t number : {std::int64_t{sent_by_coupler}, std::int64_t{peer},
                                       static_cast<std::int64_t>(bytes.size())})
         write_number(out_, number);
     out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!out_)
-        throw Failure(ExitCode::participant_failed,
-                      "cannot write " + file_.string() +
-                          ": is the disk full? Without coupling.recording nothing is kept");
+    if (!out_) give_up();
 }
 
-RecordingChannel::RecordingChannel(Channel& channel, std::filesystem::path file)
-    : channel_(channel), writer_(std::move(file), channel.peers()) {}
+/// What follows would not fit what is there: nothing more is written.
+void RecordingWriter::give_up() {
+    out_.close();
+    tell_("cannot write " + file_.string() +
+          ": is the disk full? The recording ends here; the run goes on");
+}
+
+RecordingChannel::RecordingChannel(Channel& channel, std::filesystem::path file,
+                                   RecordingWriter::Tell tell)
+    : channel_(channel), writer_(std::move(file), channel.peers(), std::move(tell)) {}
 
 void RecordingChannel::send(int peer, Bytes bytes) {
     // Before it is sent: an answer can never stand in front of its question.

@@ -12,7 +12,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "coupler/transport/channel.hpp"
 
@@ -24,22 +26,30 @@ struct RecordedFrame {
     Bytes bytes;
 };
 
-/// Writes such a file. Throws Failure (participant failed) naming it when it cannot be written.
+/// Writes such a file. One that cannot be written does not end the run: it is told once, and ends
+/// there.
 class RecordingWriter {
  public:
-    RecordingWriter(std::filesystem::path file, int peers);
+    using Tell = std::function<void(const std::string&)>;
+
+    /// Throws Failure (participant failed) naming the file when it cannot be begun.
+    RecordingWriter(std::filesystem::path file, int peers, Tell tell);
+    ~RecordingWriter();
     void write(bool sent_by_coupler, int peer, const Bytes& bytes);
 
  private:
+    void give_up();
+
     std::filesystem::path file_;
     std::ofstream out_;
+    Tell tell_;
 };
 
 /// A channel that records what passes through another one.
 class RecordingChannel final : public Channel {
  public:
-    /// Throws as RecordingWriter, here and later.
-    RecordingChannel(Channel& channel, std::filesystem::path file);
+    /// Throws and tells as RecordingWriter.
+    RecordingChannel(Channel& channel, std::filesystem::path file, RecordingWriter::Tell tell);
 
     int peers() const override { return channel_.peers(); }
     void send(int peer, Bytes bytes) override;

@@ -12,8 +12,10 @@ namespace turbidite {
 void alter_recording(const std::filesystem::path& from, const std::filesystem::path& to, Kind kind,
                      std::int64_t window, Alteration alteration) {
     Recording recording(from);
-    RecordingWriter altered(to, recording.peers());
+    std::string fault;
     bool found = false;
+    std::optional<RecordingWriter> altered;
+    altered.emplace(to, recording.peers(), [&](const std::string& text) { fault = text; });
     std::vector<bool> gap(static_cast<std::size_t>(recording.peers()), false);
     while (const auto frame = recording.next()) {
         const Envelope at = unframe(frame->bytes).envelope;
@@ -22,11 +24,13 @@ void alter_recording(const std::filesystem::path& from, const std::filesystem::p
         // What the rank had answered to the message that is left out must go as well: the gap lasts
         // until the coupler speaks to this rank again.
         if (frame->sent_by_coupler) *in_gap = chosen && alteration == Alteration::left_out;
-        if (!*in_gap) altered.write(frame->sent_by_coupler, frame->peer, frame->bytes);
+        if (!*in_gap) altered->write(frame->sent_by_coupler, frame->peer, frame->bytes);
         if (chosen && alteration == Alteration::repeated)
-            altered.write(true, frame->peer, frame->bytes);
+            altered->write(true, frame->peer, frame->bytes);
         found |= chosen;
     }
+    altered.reset();  // writes what is left
+    if (!fault.empty()) throw Failure(ExitCode::participant_failed, fault);
     if (!found)
         throw Failure(ExitCode::participant_failed, from.string() + " holds no \"" +
                                                         kind_name(kind) + "\" of window " +

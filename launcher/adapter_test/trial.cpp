@@ -135,7 +135,7 @@ JobEnd start(const std::vector<std::string>& line, const RunFolder& folder,
              const Settings& settings, const std::string& name) {
     // No lines that rewrite themselves: all output goes to files.
     ::setenv("TURBIDITE_PROGRESS", "plain", 1);
-    const JobEnd end = run_job({.arguments = line,
+    const JobEnd end = run_job({.arguments = under_lock(line),
                                 .error_log = folder.log("mpirun"),
                                 .output_log = folder.log("output"),
                                 .request_stop = [](int) { return false; },

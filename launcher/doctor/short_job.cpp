@@ -9,6 +9,7 @@
 #include "launcher/doctor/command_output.hpp"
 #include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/folder/temporary_folder.hpp"
+#include "launcher/job/launch_line.hpp"
 #include "launcher/job/overdue.hpp"
 #include "launcher/job/play_run.hpp"
 
@@ -27,7 +28,7 @@ std::string remedy(const LaunchSite& site) {
 
 JobEnd start(const PreparedRun& prepared) {
     ::setenv("TURBIDITE_PROGRESS", "plain", 1);
-    const JobEnd end = run_job({.arguments = prepared.line,
+    const JobEnd end = run_job({.arguments = under_lock(prepared.line),
                                 .error_log = prepared.folder.log("mpirun"),
                                 .output_log = prepared.folder.log("output"),
                                 .request_stop = [](int) { return false; },

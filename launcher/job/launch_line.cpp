@@ -10,6 +10,7 @@
 
 #include "launcher/case/files/command_words.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/job/folder/run_lock.hpp"
 
 namespace turbidite {
 namespace {
@@ -147,6 +148,14 @@ std::vector<std::string> replay_arguments(const Settings& settings, const RunFol
     parts.add("coupler", 1, {site.programs.replay(), folder.root, role, recording});
     parts.add(role, settings, site.programs);
     append(line, parts.line());
+    return line;
+}
+
+std::vector<std::string> under_lock(std::vector<std::string> line) {
+    // Of the first program, the coupler. -x: on whichever node it runs.
+    const auto exports = std::find(line.begin(), line.end(), "-x");
+    const std::string held = std::string(RunLock::held_variable) + "=1";
+    line.insert(exports, {"-x", held});
     return line;
 }
 

@@ -48,6 +48,9 @@ std::vector<std::string> replay_arguments(const Settings& settings, const RunFol
 /// Name of a rank of the world: "coupler", "fluid rank 0", …
 std::vector<std::string> rank_names(const Settings& settings);
 
+/// The line as a launcher starts it that holds the lock on the folder, and goes on holding it.
+std::vector<std::string> under_lock(std::vector<std::string> line);
+
 /// Quoted where needed, to be pasted in a shell.
 std::string shell_line(const std::vector<std::string>& arguments);
 

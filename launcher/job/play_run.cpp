@@ -17,6 +17,7 @@
 #include "launcher/job/folder/foam_warnings.hpp"
 #include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/job.hpp"
+#include "launcher/job/launch_line.hpp"
 #include "launcher/job/overdue.hpp"
 #include "launcher/job/terminal.hpp"
 
@@ -103,7 +104,7 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     const PipesMayBreak until_reported;
     std::fflush(nullptr);
     ::setenv("TURBIDITE_PROGRESS", rewrites_lines() ? "terminal" : "plain", 1);
-    const JobEnd end = run_job({.arguments = prepared.line,
+    const JobEnd end = run_job({.arguments = under_lock(prepared.line),
                                 .error_log = folder.log("mpirun"),
                                 .request_stop = [&](int s) { return request_stop(folder, s); },
                                 .overdue = Overdue(folder, prepared.settings),

@@ -56,16 +56,20 @@ struct Chosen {
 /// The newest whole checkpoint; newer ones, which are damaged, are removed.
 std::optional<Chosen> choose(const RunFolder& folder, const CheckpointSets& sets, const Say& say) {
     std::vector<std::string> damaged;
+    std::optional<Chosen> chosen;
     for (const std::string& name : sets.names()) try {
-            Chosen chosen{name, sets.verified(name)};
-            // Only once an older one is known to be whole. The run will write these windows again.
-            for (const std::string& bad : damaged) sets.remove(bad);
-            return chosen;
+            chosen = Chosen{name, sets.verified(name)};
+            break;
         } catch (const Failure& failure) {
             say(fmt::format("checkpoint {}: {}; the one before it is used", name, failure.what()));
             damaged.push_back(name);
         }
-    if (damaged.empty()) return std::nullopt;
+    if (!chosen && damaged.empty()) return std::nullopt;
+    // Only once an older one is known to be whole. The run will write these windows again.
+    if (chosen) {
+        for (const std::string& bad : damaged) sets.remove(bad);
+        return chosen;
+    }
     throw refused(folder.root, fmt::format("has no whole checkpoint: {}", fmt::join(damaged, ", ")),
                   "Start a new run with the grains of this one: turbidite run CASE --from DIR.");
 }
@@ -250,7 +254,7 @@ void decompose_again(const Settings& settings, const RunFolder& folder, const Ch
     const std::int64_t there = std::ssize(present) + std::ssize(processor_folders(aside));
     if (wrote > 1 && there == wrote)
         move_all(present, aside);  // all, or the rest of a move that was cut off
-    else  // of an attempt since then, which has written nothing that stays
+    else                           // of an attempt since then, which has written nothing that stays
         for (const fs::path& own : present) fs::remove_all(own);
     write_decomposition(settings, folder.fluid());
     const std::vector<fs::path> kept = processor_folders(aside);
@@ -328,6 +332,30 @@ PreparedRun from_the_beginning(const ResolvedCase& resolved, const RunFolder& fo
     return prepared;
 }
 
+/// The case and the record with the overrides, of one of which nothing is left if the other cannot
+/// be written: a later `resume` would take the values unseen. The text of the case before, if there
+/// are any. The programs of the job read the case and compare its hash.
+std::string change_case(const ResolvedCase& resolved, const RunFolder& folder, std::int64_t windows,
+                        const std::vector<std::string>& line,
+                        const std::vector<std::string>& overrides) {
+    if (overrides.empty()) {
+        write_record(resolved, folder, windows, line, overrides);
+        return {};
+    }
+    const auto put = [&](const std::string& yaml) {
+        write_whole(folder.resolved_case(), [&](std::ostream& out) { out << yaml; });
+    };
+    const std::string before = read_whole(folder.resolved_case());
+    put(resolved.yaml);
+    try {
+        write_record(resolved, folder, windows, line, overrides);
+    } catch (...) {
+        put(before);
+        throw;
+    }
+    return before;
+}
+
 /// All windows of the case are done, and the coupler has said so.
 bool is_complete(const RunFolder& folder, const ResolvedCase& resolved) {
     const auto record = read_run_json(folder.record());
@@ -395,17 +423,12 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
         say("there is no checkpoint yet; the run starts from the beginning");
         return Resumed{from_the_beginning(resolved, folder, lock, site, overrides), 0, 0.0, "", ""};
     }
-    std::string case_before;
     const std::string hash_before = read_run_json(folder.record()).value("case_hash", "");
-    if (!overrides.empty()) {
-        case_before = read_whole(folder.resolved_case());
-        // Before the job: its programs read the case and compare its hash.
-        write_whole(folder.resolved_case(), [&](std::ostream& out) { out << resolved.yaml; });
-    }
     prepare_fluid(resolved, folder, *chosen);
     keep_for_recording(resolved, folder, *chosen);
     const auto line = launch_arguments(resolved.settings, folder, site, chosen->name);
-    write_record(resolved, folder, chosen->manifest.windows, line, overrides);
+    const std::string case_before =
+        change_case(resolved, folder, chosen->manifest.windows, line, overrides);
     // Last: what the job relies on is there, also after a power cut.
     put_run_on_disk(folder);
     return Resumed{{folder, lock, line, rank_names(resolved.settings), resolved.settings},

@@ -340,5 +340,56 @@ TEST_F(Resume, PrintsTheLineForABatchScript) {
     EXPECT_EQ(lines_of_history("parts"), lines_of_history("whole"));
 }
 
+// As a batch system starts the job of a lost node again, which lost what had been played since.
+TEST_F(Resume, ALineOfADryRunThatWasPlayedIsRefused) {
+    scratch.write("case.yaml", dry_case);
+    scratch.write("walls.csv", "id,x1,y1,x2,y2\n1,6,2,7,2\n");
+    const auto line = [&](const std::string& words) {
+        const Answer answer = turbidite(words + " --set grains.adapter=standalone-nscd --dry-run");
+        EXPECT_EQ(answer.code, 0) << answer.err;
+        return answer.out.substr(0, answer.out.size() - 1);
+    };
+    const auto expect_refused = [&](const std::string& words, const std::string& why) {
+        const auto before = lines_of_history("r");
+        const std::string record = text(scratch.path() / "r/run.json");
+        const Answer again = shell(words);
+        EXPECT_EQ(again.code, 2) << again.out << again.err;
+        EXPECT_SAYS(again.err, why);
+        EXPECT_SAYS(again.err, "resume " + (scratch.path() / "r").string());
+        EXPECT_EQ(lines_of_history("r"), before);
+        EXPECT_EQ(text(scratch.path() / "r/run.json"), record);
+    };
+    const std::string first = line("run case.yaml --out r --set time.end=1");
+    expect_done(shell(first));
+    expect_refused(first, "has windows that are done, and this line would begin it again");
+
+    const Answer next = turbidite("resume r --set time.end=2 --dry-run");
+    const std::string second = next.out.substr(0, next.out.size() - 1);
+    expect_done(shell(second));
+    expect_refused(second, "has got as far as checkpoint w00000160, and this line would go back");
+    fs::remove_all(scratch.path() / "r/checkpoints/w00000080");
+    expect_refused(second, "has no checkpoint w00000080 any more");
+}
+
+TEST_F(Resume, ALineOfADryRunKeepsOthersOutOfItsFolder) {
+    scratch.write("case.yaml", dry_case);
+    scratch.write("walls.csv", "id,x1,y1,x2,y2\n1,6,2,7,2\n");
+    const Answer answer = turbidite(
+        "run case.yaml --out r --set grains.adapter=standalone-nscd --set time.end=1000 --dry-run");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    scratch.write("job.sh", answer.out.substr(0, answer.out.size() - 1) + " &\n" + R"sh(
+until [ "$(wc -l < r/history.csv 2>/dev/null || echo 0)" -gt 4 ]; do sleep 0.05; done
+"$1" resume r; echo "resume $?"
+touch r/STOP
+wait %1; echo "job $?"
+)sh");
+    const Answer both = shell(std::string("timeout 100 bash job.sh ") + TURBIDITE_PROGRAM);
+    EXPECT_SAYS(both.err, "is in use by a run that has not ended");
+    EXPECT_SAYS(both.out, "resume 2\n");
+    EXPECT_SAYS(both.out, "job 130\n");
+    EXPECT_FALSE(fs::exists(scratch.path() / "r/lock"));
+    EXPECT_EQ(turbidite("resume r --dry-run").code, 0);
+}
+
 }  // namespace
 }  // namespace turbidite

@@ -254,7 +254,8 @@ class _Calls:
         ctypes.memmove(_library.turbidite_room(room, len(state)), state, len(state))
 
     def restore(self, state, size):
-        self.adapter.restore(ctypes.string_at(state, size))
+        # ctypes.string_at takes no more than 2 GiB.
+        self.adapter.restore(bytes((ctypes.c_char * size).from_address(state)) if size else b'')
 
 
 def _window(pointer):

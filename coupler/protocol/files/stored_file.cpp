@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/received.hpp"
@@ -65,8 +66,10 @@ std::ifstream opened(const std::filesystem::path& folder, const StoredFile& file
     const std::filesystem::path path = folder / file.name;
     std::error_code missing;
     const std::uintmax_t bytes = std::filesystem::file_size(path, missing);
+    if (missing) throw damaged(path, "is missing");
+    errno = 0;
     std::ifstream in(path, std::ios::binary);
-    if (missing || !in) throw damaged(path, "is missing");
+    if (!in) throw damaged(path, std::string("cannot be opened: ") + std::strerror(errno));
     // Cheaper than the checksum, and says more about a file that was cut off.
     if (static_cast<std::int64_t>(bytes) != file.bytes)
         throw damaged(path, "has " + std::to_string(bytes) + " bytes instead of " +
@@ -94,8 +97,14 @@ std::int64_t crc32_of(const Bytes& bytes) {
 struct PieceWriter::Open {
     std::filesystem::path path;
     StoredFile file;  // so far, without its checksum
-    Descriptor out{path, O_WRONLY | O_CREAT | O_TRUNC};
+    std::optional<Descriptor> out{};
     boost::crc_32_type crc{};
+
+    Descriptor& opened() {
+        if (!out) out.emplace(path, O_WRONLY | O_CREAT | O_TRUNC);
+        if (!out->open()) throw failure();
+        return *out;
+    }
 
     /// Bytes that were to be written, at the least.
     Failure failure(std::size_t more = 0) const {
@@ -104,21 +113,19 @@ struct PieceWriter::Open {
 };
 
 PieceWriter::PieceWriter(const std::filesystem::path& folder, const std::string& name)
-    : open_(new Open{folder / name, {name}}) {
-    if (!open_->out.open()) throw open_->failure();
-}
+    : open_(new Open{folder / name, {name}}) {}
 
 PieceWriter::~PieceWriter() = default;
 
 void PieceWriter::write(const void* from, std::size_t bytes) {
-    if (!open_->out.write_all(from, bytes)) throw open_->failure(bytes);
+    if (!open_->opened().write_all(from, bytes)) throw open_->failure(bytes);
     open_->crc.process_bytes(from, bytes);
     open_->file.bytes += static_cast<std::int64_t>(bytes);
 }
 
 StoredFile PieceWriter::finish() {
     // An error of the disk may show only here, after all writes have succeeded.
-    if (!open_->out.sync()) throw open_->failure();
+    if (!open_->opened().sync()) throw open_->failure();
     open_->file.crc32 = static_cast<std::int64_t>(open_->crc.checksum());
     return open_->file;
 }

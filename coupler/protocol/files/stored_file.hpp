@@ -35,7 +35,8 @@ StoredFile store(const std::filesystem::path& folder, const std::string& name, c
 /// A file that is written in pieces, for content that is not to be in memory a second time.
 class PieceWriter {
  public:
-    /// FOLDER/name, empty. Throws as `store`.
+    /// FOLDER/name, made by the first call below: whatever all ranks do together before they write
+    /// is done by all, also where one of them cannot open its file.
     PieceWriter(const std::filesystem::path& folder, const std::string& name);
     ~PieceWriter();
 

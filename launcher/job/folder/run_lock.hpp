@@ -24,6 +24,10 @@ class RunLock {
     /// Whether another process has the folder now; false if it does not exist. Throws as above.
     static bool is_held(const std::filesystem::path& folder);
 
+    /// Environment of a job whose launcher has the lock; a job that was started by the line of
+    /// `--dry-run` takes it itself.
+    static constexpr const char* held_variable = "TURBIDITE_LOCK_HELD";
+
     /// Name of the file in a run folder.
     static constexpr const char* file = "lock";
 

@@ -6,6 +6,7 @@
 
 #include <sys/resource.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -81,7 +82,14 @@ TEST(StoredFile, IsComparedBeforeAPieceIsRead) {
     const StoredFile file = store(folder.path(), "file", Bytes(100, 'a'));
     overwrite(folder.path() / "file", 99, 'b');
     EXPECT_THROW(PieceReader(folder.path(), file), Failure);
-    EXPECT_THROW(PieceWriter(folder.path() / "none", "file"), Failure);
+}
+
+// What ranks do together between the two is done by all of them.
+TEST(StoredFile, IsMadeByTheFirstWrite) {
+    const TestFolder folder("late-pieces");
+    PieceWriter writer(folder.path() / "none", "file"), empty(folder.path() / "none", "empty");
+    EXPECT_THROW(writer.write("a", 1), Failure);
+    EXPECT_THROW(empty.finish(), Failure);
 }
 
 TEST(CheckpointRule, CountsFromTheBeginningOfTheRun) {
@@ -477,6 +485,63 @@ class SmallFiles {
     void (*handler_)(int);
     rlimit before_{};
 };
+
+// A rank that went its own way would leave the others in what they do together.
+TEST(Checkpoint, ARankThatCannotOpenItsFileSavesWithTheOthers) {
+    const TestFolder folder("checkpoint-no-file");
+    Job job = job_with_checkpoints("split");
+    job.grains_ranks = 2;
+    std::atomic<int> saves{0};
+    job.grains_fault = [&](const std::string& function, std::int64_t) {
+        saves += function == "save";
+    };
+    job.to_grains = [&](Bytes& bytes) {
+        const Message message = unframe(bytes);
+        if (message.envelope.kind == Kind::save)
+            fs::create_directories(folder.path() / decode<CheckpointPlace>(message.payload).folder /
+                                   "grains.rank1");
+        return true;
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    EXPECT_TRUE(sets_in(folder).empty());
+    EXPECT_EQ(saves, 8);  // both ranks, after 0, 2, 4 and 6 windows
+    const std::string log = text_of(folder.files().log);
+    EXPECT_NE(log.find("grains rank 1: cannot write"), std::string::npos) << log;
+}
+
+TEST(Checkpoint, AFileOfTheOutputThatIsGoneCostsTheSetAlone) {
+    const TestFolder folder("checkpoint-gone");
+    Job job = job_with_checkpoints("split");
+    job.grains_fault = [&](const std::string& function, std::int64_t window) {
+        if (function == "advance" && window == 3) fs::remove(folder.files().history);
+    };
+    job.run(folder);
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    EXPECT_EQ(sets_in(folder), (Names{"w00000002", "w00000000"}));
+    const std::string log = text_of(folder.files().log);
+    EXPECT_NE(log.find("no checkpoint after window 4: cannot write"), std::string::npos) << log;
+}
+
+TEST(Checkpoint, AFullDiskEndsTheRecordingAndNotTheRun) {
+    const TestFolder folder("recording-full");
+    Job job = job_with_checkpoints("split");
+    job.settings.set("checkpoint.windows", std::int64_t{0});
+    job.recordings = folder.path();
+    std::optional<SmallFiles> full;
+    job.grains_fault = [&](const std::string& function, std::int64_t window) {
+        if (function == "advance" && window == 1) full.emplace(4096);
+    };
+    job.settings.set("run.output_every", std::int64_t{100});
+    job.run(folder);
+    full.reset();
+    EXPECT_EQ(job.status.code, ExitCode::done) << job.status.reason;
+    for (const char* name : {"grains.frames", "fluid.frames"}) {
+        EXPECT_EQ(fs::file_size(folder.path() / name), 4096u) << name;
+        EXPECT_NE(job.told.find(std::string(name) + ": is the disk full?"), std::string::npos)
+            << job.told;
+    }
+}
 
 TEST(Checkpoint, AFullDiskLeavesTheLastSetAndTheRunGoesOn) {
     const TestFolder folder("checkpoint-full");

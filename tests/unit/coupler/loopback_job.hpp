@@ -41,6 +41,7 @@ struct Job {
 
     RunStatus status;
     std::vector<Outcome> outcomes;
+    std::string told;  // of recordings
 
     void run(const TestFolder& folder) {
         const bool wet = settings.flag("fluid.enabled");
@@ -72,8 +73,11 @@ struct Job {
             Channel *to_grains_program = grains.get(), *to_fluid_program = fluid.get();
             std::optional<RecordingChannel> grains_recorded, fluid_recorded;
             if (!recordings.empty()) {
-                to_grains_program = &grains_recorded.emplace(*grains, recordings / "grains.frames");
-                to_fluid_program = &fluid_recorded.emplace(*fluid, recordings / "fluid.frames");
+                const auto tell = [this](const std::string& text) { told += text; };
+                to_grains_program =
+                    &grains_recorded.emplace(*grains, recordings / "grains.frames", tell);
+                to_fluid_program =
+                    &fluid_recorded.emplace(*fluid, recordings / "fluid.frames", tell);
             }
             Hub hub({settings, {{"disc", {}}}, population, resumption(folder)}, folder.files(),
                     *to_grains_program, wet ? to_fluid_program : nullptr,

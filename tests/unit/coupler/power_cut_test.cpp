@@ -67,6 +67,29 @@ TEST_F(PowerCut, TheRowsBeforeASetAreOnTheDiskWithIt) {
     EXPECT_GT(lengths[3], lengths[0]);
 }
 
+TEST_F(PowerCut, WhatTheSeriesNamesIsOnTheDiskWithASet) {
+    const auto written = [&](const Call& call) {
+        return call.kind == Call::Kind::rename && call.to.extension() == ".vtp";
+    };
+    std::size_t outputs = 0, names = 0;
+    for (std::size_t i = 0; i < calls.size(); ++i) {
+        if (!puts_a_set_in_place(calls[i])) continue;
+        auto there = trace::on_disk(before(calls, i));
+        for (std::size_t k = 0; k < i; ++k) {
+            if (!written(calls[k])) continue;
+            ++outputs;
+            EXPECT_TRUE(there[calls[k].to] == calls[k].version) << calls[k].to;
+            names += std::any_of(
+                calls.begin() + static_cast<std::ptrdiff_t>(k),
+                calls.begin() + static_cast<std::ptrdiff_t>(i), [&](const Call& c) {
+                    return c.kind == Call::Kind::sync && c.path == calls[k].to.parent_path();
+                });
+        }
+    }
+    EXPECT_GE(outputs, 4u);
+    EXPECT_EQ(names, outputs);
+}
+
 // Its new name is a change of `checkpoints`, and `checkpoints` one of the run folder.
 TEST_F(PowerCut, AnOldSetGoesWhenTheDiskHasTheNameOfTheNewOne) {
     int taken = 0;

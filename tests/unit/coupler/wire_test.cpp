@@ -209,6 +209,36 @@ TEST(Wire, TruncatedOrForeignBytesAreRefused) {
     EXPECT_THROW(unframe(bytes), MalformedPayload);
 }
 
+// Of a program that writes four bytes into places of eight that are not zero.
+TEST(Wire, ANumberThatDoesNotFitIsRefused) {
+    const auto read = [](std::int64_t sent, auto number) {
+        Bytes bytes;
+        Writer code(bytes);
+        code(sent);
+        Reader from(bytes);
+        from(number);
+        return number;
+    };
+    EXPECT_EQ(read(-7, std::int32_t{}), -7);
+    EXPECT_THROW(read(std::int64_t{1} << 32 | 7, std::int32_t{}), MalformedPayload);
+    EXPECT_TRUE(read(1, bool{}));
+    EXPECT_THROW(read(256, bool{}), MalformedPayload);
+
+    Bytes motion = encode(Motion{{grain()}, {}});
+    const auto shape = static_cast<std::int64_t>(grain().shape) | std::int64_t{1} << 40;
+    bool found = false;
+    for (std::size_t at = 0; at + sizeof shape <= motion.size() && !found; at += sizeof shape) {
+        Bytes changed = motion;
+        std::memcpy(changed.data() + at, &shape, sizeof shape);
+        try {
+            decode<Motion>(changed);
+        } catch (const MalformedPayload& fault) {
+            found = std::string(fault.what()).find("out of range") != std::string::npos;
+        }
+    }
+    EXPECT_TRUE(found);
+}
+
 TEST(Wire, AHugeLengthIsRefusedBeforeMemoryIsTaken) {
     Bytes bytes;
     Writer code(bytes);
