@@ -41,6 +41,12 @@ std::vector<T> vector_of(const python::object& list, Read read) {
 /// filled in.
 Settings checked_settings(const python::dict& options) {
     CaseEntries entries;
+    // Where bodies move is the scene's: keys of space are known, and have no effect in the plane.
+    CaseEntry dimension;
+    dimension.source = "turbidite_contact";
+    dimension.key = "dimension";
+    dimension.value = "3";
+    entries.entries.push_back(dimension);
     const python::list items = options.items();
     for (python::ssize_t i = 0; i < python::len(items); ++i) {
         CaseEntry entry;
@@ -60,9 +66,12 @@ Settings checked_settings(const python::dict& options) {
     return settings;
 }
 
-nscd::EngineSettings engine_settings(const python::dict& options, const python::object& gravity) {
+/// `diameter`: of the grains between which the force of bridges and bonds is adhesion_force.
+nscd::EngineSettings engine_settings(const python::dict& options, const python::object& gravity,
+                                     double diameter) {
     nscd::EngineSettings settings = contact_settings(checked_settings(options));
     settings.gravity = triple(gravity);
+    settings.law_settings.reference_diameter = diameter;
     return settings;
 }
 
@@ -99,6 +108,9 @@ nscd::Body body_of(const python::object& record) {
     body.weight_mass = body.mass;
     body.fixed = field<bool>(record, "fixed");
     body.rotation_blocked = field<bool>(record, "rotation_blocked");
+    // What nothing depends on may be anything in YADE, zero too.
+    if (body.fixed) body.mass = 1.0;
+    if (body.fixed || body.rotation_blocked) body.inertia = 1.0;
     return body;
 }
 
@@ -149,8 +161,8 @@ void check_outline(const python::object& vertices) {
 
 class ContactEngine {
  public:
-    ContactEngine(const python::dict& options, const python::object& gravity)
-        : host_(engine_settings(options, gravity)) {}
+    ContactEngine(const python::dict& options, const python::object& gravity, double diameter)
+        : host_(engine_settings(options, gravity, diameter)) {}
 
     void lay_out(const python::object& scene) { host_.lay_out(layout_of(scene)); }
 
@@ -220,8 +232,9 @@ BOOST_PYTHON_MODULE(turbidite_contact_engine) {
     python::class_<ContactEngine, boost::noncopyable>(
         "ContactEngine",
         "The contact engine over bodies of YADE.\n\n"
-        "ContactEngine(options, gravity): options are keys of the group contact as texts.",
-        python::init<python::dict, python::object>())
+        "ContactEngine(options, gravity, diameter): options are keys of the group contact as "
+        "texts.",
+        python::init<python::dict, python::object, double>())
         .def("lay_out", &ContactEngine::lay_out,
              "Sets the scene; impulses of known pairs are kept.")
         .def("outdated", &ContactEngine::outdated,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "granular_adapter/yade/contact_host.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -28,6 +29,19 @@ ContactHost::ContactHost(const nscd::EngineSettings& settings) : settings_(setti
     lay_out({});
 }
 
+/// By material of the scene; without any the engine has no bodies yet, and the law of a pair of
+/// surfaces is only asked whether its numbers make sense.
+std::vector<nscd::Surface> ContactHost::surfaces(const std::vector<double>& frictions) const {
+    std::vector<nscd::Surface> result;
+    for (const double friction : frictions.empty() ? std::vector{0.0} : frictions) {
+        result.push_back(settings_.surfaces.at(0));
+        result.back().friction = friction;
+        // A material rougher than the law's static friction: its contacts slide with their own.
+        result.back().static_friction = std::max(result.back().static_friction, friction);
+    }
+    return result;
+}
+
 std::unique_ptr<nscd::Engine> ContactHost::new_engine(Layout& layout) const {
     nscd::EngineSettings settings = settings_;
     settings.box = layout.box;
@@ -35,11 +49,7 @@ std::unique_ptr<nscd::Engine> ContactHost::new_engine(Layout& layout) const {
     if (layout.dimension == 2 && !layout.bodies.empty() && settings.gravity[2] != 0.0)
         throw std::runtime_error(
             "turbidite_contact: gravity has a z component, but the bodies move in the plane");
-    if (!layout.frictions.empty()) {
-        settings.surfaces.assign(layout.frictions.size(), settings_.surfaces.at(0));
-        for (std::size_t i = 0; i < layout.frictions.size(); ++i)
-            settings.surfaces[i].friction = layout.frictions[i];
-    }
+    settings.surfaces = surfaces(layout.frictions);
     auto engine = std::make_unique<nscd::Engine>(settings, layout.shapes,
                                                  layout.walls.read(layout.dimension));
     for (const nscd::Body& body : layout.bodies) engine->bodies().add(body);

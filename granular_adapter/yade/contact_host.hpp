@@ -85,6 +85,7 @@ class ContactHost {
     std::vector<ContactForce> contacts() const;
 
  private:
+    std::vector<nscd::Surface> surfaces(const std::vector<double>& frictions) const;
     std::unique_ptr<nscd::Engine> new_engine(Layout& layout) const;
     bool in_space() const { return engine_->settings().dimension == 3; }
     void read_bodies();

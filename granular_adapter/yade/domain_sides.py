@@ -5,6 +5,7 @@ from yade import utils
 
 # For grains an inflow is a wall, as in granular_adapter/grains/borders.cpp.
 SOLID = ('wall', 'inflow')
+NAMES = ('left', 'right', 'bottom', 'top', 'front', 'back')
 
 
 def in_space(settings):

@@ -42,9 +42,10 @@ class Store:
         for key, unit in self.UNITS.items():
             if key in options:
                 options[key] = repr(float(options[key]) * float(case[unit]))
-        self.settings = {'gravity': [0.0, -float(case['run.gravity']), 0.0], 'show': 0, 'options': options}
-        if walls_of_the_engine(case):
-            self.settings['engine_walls'] = walls_of_the_engine(case)
+        self.settings = {'gravity': [0.0, -float(case['run.gravity']), 0.0], 'show': 0, 'options': options,
+                         'diameter': float(case['run.diameter'])}
+        if not_in_yade(case):
+            self.settings['not_in_yade'] = not_in_yade(case)
         self.engine = turbidite_contact.memory.holder(self.settings)
 
     def keep(self, contacts):
@@ -196,6 +197,17 @@ def walls_of_the_engine(case):
     """How many walls inside the box YADE's scene does not have: all those of space."""
     walls = case.get('run.walls', '')
     return len(walls.split(';')) if walls and domain_sides.in_space(case) else 0
+
+
+def not_in_yade(case):
+    """What holds the grains of a case and is not in YADE's scene, in words; '' without any."""
+    parts = []
+    if walls_of_the_engine(case):
+        parts.append(f'{walls_of_the_engine(case)} walls inside the box (domain.walls_file)')
+    cyclic = [side for side in domain_sides.NAMES if case.get('domain.' + side) == 'cyclic']
+    if cyclic:
+        parts.append(f'cyclic sides ({", ".join(cyclic)})')
+    return ' and '.join(parts)
 
 
 def axes_of(body):

@@ -23,19 +23,20 @@ _STEP = 'import turbidite_contact; turbidite_contact.step()'
 _present = None  # the host of the scene that made the last step
 
 
-def engines(gravity=_DEFAULT_GRAVITY, show=0, **contact):
+def engines(gravity=_DEFAULT_GRAVITY, show=0, diameter=None, **contact):
     """A list for O.engines, which begins with ForceResetter and ends with the store of contact impulses.
 
     gravity  [m/s2]; no z component where bodies move in the plane
     show     interval in steps at which O.interactions and O.forces show the contacts (0: never); recorders that
              read them must run at multiples of it, after these engines
+    diameter [m] of the grains between which adhesion_force acts, with adhesion='capillary' or 'cohesion'
     contact  tolerance, iterations, law, solver, ...: the keys of `turbidite keys` in the group contact,
              in SI units, except friction, which is that of the bodies' materials
 
     Engines that add forces (O.forces.addF) belong after the first of the list, all others after the last.
     Raises Refused or RuntimeError, naming the key, for a setting that is not allowed.
     """
-    settings = _host.settings(gravity, show, contact)
+    settings = _host.settings(gravity, show, diameter, contact)
     return [
         ForceResetter(),
         # Inactive: unbalancedForce and similar functions read gravity from it.
@@ -45,7 +46,7 @@ def engines(gravity=_DEFAULT_GRAVITY, show=0, **contact):
     ]
 
 
-def attach(gravity=None, show=0, **contact):
+def attach(gravity=None, show=0, diameter=None, **contact):
     """Sets O.engines to engines(...) in place of those present engines that detect contacts or integrate.
 
     What stands before the integrator, such as a ForceEngine, acts before the contacts; the rest follows them. The
@@ -56,10 +57,10 @@ def attach(gravity=None, show=0, **contact):
     integrators = [k for k, engine in enumerate(present) if type(engine).__name__ == 'NewtonIntegrator']
     if gravity is None:
         gravity = present[integrators[0]].gravity if integrators else _DEFAULT_GRAVITY
-    ours = engines(gravity, show, **contact)
+    ours = engines(gravity, show, diameter, **contact)
     for engine in present:
         if engine.label == memory.LABEL:
-            memory.write(ours[-1], memory.read(ours[-1])[0], memory.read(engine)[1])
+            memory.succeed(engine, ours[-1])
     place = integrators[0] if integrators else 0
     O.engines = ours[:1] + _kept(present[:place]) + ours[1:] + _kept(present[place:])
 
@@ -108,7 +109,7 @@ def refresh():
     shape, or moved a body where it overlaps others. Bodies that come or go, other masses, degrees of freedom, masks,
     materials, friction angles, walls and periodic cells are detected without it."""
     if _present is not None:
-        _present.scene = None
+        _present.read_again = True
 
 
 def _stepped():

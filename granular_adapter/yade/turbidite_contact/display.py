@@ -5,7 +5,7 @@ YADE has one interaction between two bodies, so the points of a pair are combine
 Forces are the impulses of the last contact problem over the step; the force of an interaction acts on id2.
 """
 from yade import utils
-from yade.minieigenHP import Vector3
+from yade.minieigenHP import Vector3, Vector3i
 from yade.wrapper import FrictPhys, Omega, ScGeom
 
 O = Omega()
@@ -16,7 +16,8 @@ def show(contacts, impulses, dt):
     clear()
     for (id1, id2), points in by_pair(contacts).items():
         interaction = utils.createInteraction(id1, id2, True)
-        interaction.geom, interaction.phys = geometry(id1, id2, points), forces(points)
+        interaction.cellDist = Vector3i(0, 0, 0) if points[0].wall else periods(position(id1), position(id2))
+        interaction.geom, interaction.phys = geometry(id1, id2, points, interaction.cellDist), forces(points)
     for body, impulse, moment in impulses:
         O.forces.addF(body, Vector3(*impulse) / dt)
         O.forces.addT(body, Vector3(*moment) / dt)
@@ -39,15 +40,33 @@ def by_pair(contacts):
     return pairs
 
 
-def geometry(id1, id2, points):
+def position(body):
+    return O.bodies[body].state.pos
+
+
+def periods(place, other):
+    """How many periods of the cell lie between `other` and that of its images which is nearest to `place`."""
+    if not O.periodic:
+        return Vector3i(0, 0, 0)
+    return Vector3i(*(round((place[k] - other[k]) / O.cell.size[k]) for k in range(3)))
+
+
+def moved(place, cells):
+    return place + O.cell.hSize * Vector3(*cells) if O.periodic else place
+
+
+def geometry(id1, id2, points, cells):
     weight = sum(p.normal_force.norm() for p in points)
     geom = ScGeom()
     # Under traction at all points (cohesion) the same weights apply; without normal forces, the mean position.
     shares = [p.normal_force.norm() / weight if weight else 1 / len(points) for p in points]
-    geom.contactPoint = sum((share * p.point for share, p in zip(shares, points)), Vector3.Zero)
+    point = sum((share * p.point for share, p in zip(shares, points)), Vector3.Zero)
+    # As YADE has it: at id1, beside the image of id2.
+    geom.contactPoint = point if points[0].wall else moved(point, periods(position(id1), point))
     normal = sum((share * p.normal for share, p in zip(shares, points)), Vector3.Zero)
     geom.normal = normal / normal.norm()
-    geom.refR1, geom.refR2 = ((geom.contactPoint - O.bodies[i].state.pos).norm() for i in (id1, id2))
+    centres = position(id1), moved(position(id2), cells)
+    geom.refR1, geom.refR2 = ((geom.contactPoint - centre).norm() for centre in centres)
     return geom
 
 

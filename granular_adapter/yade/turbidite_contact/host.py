@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The contact engine of one scene: detects changes made by the script, steps, keeps the memory up to date."""
+import math
+
 import turbidite_contact_engine
 from yade.minieigenHP import Vector3
 from yade.wrapper import Omega
@@ -12,11 +14,12 @@ O = Omega()
 YADE_DEFAULT_STEP = 1e-8
 # of the smaller radius, for new bodies; packings of soft bodies have 0.01 at most
 MOST_OVERLAP = 0.05
+OF_A_DIAMETER = ('capillary', 'cohesion')  # their forces depend on the radii
 SAME_GRAVITY = 1e-12  # of it: digits of a saved scene
 
 
-def settings(gravity, show, contact):
-    """Checked settings in JSON types: gravity, show, options (strings, by key of the group contact)."""
+def settings(gravity, show, diameter, contact):
+    """Checked settings in JSON types: gravity, show, diameter, options (strings, by key of the group contact)."""
     if not hasattr(gravity, '__len__') or len(gravity) != 3:
         told = tuple(gravity) if hasattr(gravity, '__len__') else gravity
         raise Refused(f'turbidite_contact: gravity = {told} must be (x, y, z); z is 0 in the plane')
@@ -24,11 +27,22 @@ def settings(gravity, show, contact):
         raise Refused(f'turbidite_contact: show = {show} must be a whole number of steps, or 0')
     if 'friction' in contact:
         raise Refused('turbidite_contact: friction is that of the materials (FrictMat.frictionAngle) of the bodies')
+    if diameter is None and contact.get('adhesion') in OF_A_DIAMETER:
+        raise Refused(f'turbidite_contact: adhesion = {contact["adhesion"]!r} needs diameter [m]: adhesion_force is the '
+                      'force between two grains of it, and that of others follows from their radii')
+    if diameter is not None and not (diameter > 0 and math.isfinite(diameter)):
+        raise Refused(f'turbidite_contact: diameter = {diameter!r} must be a positive length [m]')
     options = {key: str(value) for key, value in contact.items()}
     result = {'gravity': [float(g) for g in gravity], 'show': int(show), 'options': options}
-    # raises for settings that the engine does not accept
-    turbidite_contact_engine.ContactEngine(options, result['gravity'])
+    if diameter is not None:
+        result['diameter'] = float(diameter)
+    new_engine(result)  # raises for settings that the engine does not accept
     return result
+
+
+def new_engine(settings):
+    return turbidite_contact_engine.ContactEngine(settings['options'], settings['gravity'],
+                                                  settings.get('diameter', 1.0))
 
 
 class Contact:
@@ -46,14 +60,15 @@ class Host:
     """`settings` as returned above; `mark`: that of the store with which this engine is up to date."""
 
     def __init__(self, settings, remembered, mark):
-        if settings.get('engine_walls'):
-            raise Refused(f'turbidite_contact: the case of this scene has {settings["engine_walls"]} walls inside the '
-                          'box (domain.walls_file) that are not in YADE\'s scene: its grains cannot go on without them')
+        if settings.get('not_in_yade'):
+            raise Refused(f'turbidite_contact: the case of this scene has {settings["not_in_yade"]} that YADE\'s scene '
+                          'does not have: its grains cannot go on without them')
         self.settings, self.mark = settings, mark
-        self.engine = turbidite_contact_engine.ContactEngine(settings['options'], settings['gravity'])
+        self.engine = new_engine(settings)
         if remembered:
             self.engine.restore_memory(remembered)
         self.scene = None
+        self.read_again = False  # a script has asked for it
         self.report = {}
         self.unconverged_steps = 0
         self.dt = None
@@ -77,17 +92,18 @@ class Host:
 
     def follow_scene(self):
         """Lays the engine out again if bodies were added, erased or changed."""
-        if self.scene is None or self.scene.changed() or self.engine.outdated(len(O.bodies)):
-            known = self.scene.members() if self.scene else []
+        if self.scene is None or self.read_again or self.scene.changed() or self.engine.outdated(len(O.bodies)):
+            known = [] if self.scene is None or self.read_again else self.scene.members()
             self.scene = read_scene()
             self.engine.lay_out(self.scene.layout)
+            self.read_again = False
             if self.scene.members() != known:
                 self.check_overlap()
 
     def check_overlap(self):
         worst = self.engine.overlap()
         if worst and worst[3] > MOST_OVERLAP:
-            self.scene = None
+            self.read_again = True
             first, second, depth, share, wall = worst
             pair = f'body {second} reaches {depth:.3g} into wall {first}' if wall else \
                 f'bodies {first} and {second} overlap by {depth:.3g}'

@@ -30,6 +30,15 @@ def holder(settings):
     return runner
 
 
+def succeed(earlier, runner):
+    """Gives a new holder the contacts of an earlier one, and what its scene lacks."""
+    settings, contacts = read(earlier)
+    own = read(runner)[0]
+    if 'not_in_yade' in settings:
+        own['not_in_yade'] = settings['not_in_yade']
+    write(runner, own, contacts)
+
+
 def find():
     """The holder in the present scene."""
     for engine in Omega().engines:

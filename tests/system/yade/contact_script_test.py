@@ -209,6 +209,35 @@ class Motion(SceneTest):
 
 
 class Results(SceneTest):
+    def test_the_stress_of_a_periodic_cell_is_that_of_its_contacts(self):
+        """Three discs of 1 m in a row of 2.97 m that repeats: one of three contacts is across the end of the cell."""
+        material(0)
+        O.periodic = True
+        O.cell.hSize = Matrix3(2.97, 0, 0, 0, 50, 0, 0, 0, 50)
+        discs([(0.3, 0.5), (1.29, 0.5), (2.28, 0.5)])
+        start(gravity=(0, 0, 0), show=1)
+        O.step()
+        points = turbidite_contact.contacts()
+        self.assertEqual(len(points), 3)
+        self.assertGreater(points[0].normal_force.norm(), 1)
+        pressure = 0.99 * sum(point.normal_force.norm() for point in points)
+        self.assertAlmostEqual(utils.getStress(1.0)[0, 0], -pressure, delta=0.02 * pressure)
+        for interaction in O.interactions:
+            self.assertAlmostEqual(interaction.geom.refR1, 0.495, delta=0.01)
+            self.assertAlmostEqual(interaction.geom.refR2, 0.495, delta=0.01)
+
+    def test_forces_of_bridges_are_those_of_grains_of_the_given_diameter(self):
+        for diameter, holds in ((1.0, True), (2.0, False)):  # half the force on grains half as large
+            O.reset()
+            material(0)
+            discs([(0, 1.5)], fixed=True)
+            low, = discs([(0, 0.5)])
+            weight = G * O.bodies[low].state.mass
+            start(adhesion='capillary', adhesion_force=1.5 * weight, adhesion_range=0.01, adhesion_length=0.01,
+                  diameter=diameter)
+            O.run(200, True)
+            self.assertEqual(O.bodies[low].state.pos[1] > 0.45, holds)
+
     def test_contacts_reach_the_tools_of_yade(self):
         """At rest floor and walls carry the weight: in O.forces, in O.interactions, in VTKRecorder's files."""
         pile()
@@ -365,6 +394,16 @@ class InSpace(SceneTest):
         O.run(50, True)
         self.assertEqual((O.iter, states()), (before + 50, expected))
 
+    def test_torsion_stops_a_spinning_sphere(self):
+        material(0.3)
+        ball = O.bodies[spheres([(0, 0.5, 0)])[0]]
+        floor()
+        ball.state.angVel = Vector3(0, 1, 0)
+        start(torsion_friction=0.1)
+        O.run(400, True)
+        self.assertEqual(turbidite_contact.report()['contacts'], 1)
+        self.assertAlmostEqual(ball.state.angVel[1], 0.0, delta=1e-9)
+
     def test_what_belongs_to_the_plane_is_refused(self):
         material(0.3)
         spheres([(0, 0.5, 0)])
@@ -501,6 +540,38 @@ class Refusals(SceneTest):
             turbidite_contact.engines(theta=0.5)
         with self.assertRaisesRegex(RuntimeError, '(?s)contact.tolerence.*Did you mean contact.tolerance'):
             turbidite_contact.engines(tolerence=0.5)
+
+    def test_friction_at_rest_is_not_below_that_of_a_rough_wall(self):
+        material(0.1)
+        ball, = discs([(0, 0.5)])
+        floor(mat=material(0.5))
+        O.bodies[ball].state.blockedDOFs = 'zXYZ'
+        alpha = math.atan(0.15)  # would slide with 0.1
+        start(gravity=(G * math.sin(alpha), -G * math.cos(alpha), 0), law='static-dynamic', static_friction=0.2)
+        O.run(100, True)
+        self.assertAlmostEqual(O.bodies[ball].state.vel[0], 0.0, delta=1e-9)
+
+    def test_what_nothing_depends_on_may_be_zero(self):
+        body = self.scene()
+        body.state.inertia, body.state.blockedDOFs = Vector3(0, 0, 0), 'zXYZ'
+        fixed, = discs([(3, 5)], fixed=True)
+        O.bodies[fixed].state.mass = 0
+        O.step()
+        self.assertEqual(turbidite_contact.contact_force(0), Vector3.Zero)
+
+    def test_a_diameter_where_forces_depend_on_it(self):
+        bridges = dict(adhesion='capillary', adhesion_force=1, adhesion_range=0.01, adhesion_length=0.01)
+        with self.assertRaisesRegex(turbidite_contact.Refused, r"adhesion = 'capillary' needs diameter \[m\]"):
+            turbidite_contact.engines(**bridges)
+        with self.assertRaisesRegex(turbidite_contact.Refused, 'diameter = -1 must be a positive length'):
+            turbidite_contact.engines(diameter=-1, **bridges)
+
+    def test_results_stay_when_the_scene_is_to_be_read_again(self):
+        self.scene()
+        base = floor()
+        O.step()
+        turbidite_contact.refresh()
+        self.assertAlmostEqual(turbidite_contact.contact_force(base)[1], -G * O.bodies[0].state.mass, delta=1e-3)
 
     def test_an_error_ends_the_run(self):
         body = self.scene()
