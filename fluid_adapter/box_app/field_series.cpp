@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <utility>
 
 #include "coupler/protocol/failure.hpp"
 #include "fluid_adapter/fluid_window/slices.hpp"
@@ -34,7 +35,11 @@ class SharedFile {
         }
     }
 
-    bool good() const { return good_; }
+    /// Closes it: some file systems tell only then that it could not be written.
+    bool finish() {
+        if (number_ >= 0) good_ = ::close(std::exchange(number_, -1)) == 0 && good_;
+        return good_;
+    }
 
  private:
     int number_;
@@ -51,7 +56,7 @@ bool write_frame(const std::filesystem::path& file, const SliceLayout& layout) {
         out.write(layout.places[array], &length, sizeof length);
     }
     out.write(layout.place_of_end(), layout.end.data(), layout.end.size());
-    return out.good();
+    return out.finish();
 }
 
 /// Rows of one z, x fastest, over this rank's layers: they lie together in the file.
@@ -79,7 +84,7 @@ bool write_own(const std::filesystem::path& file, const SliceLayout& layout,
                       rows.size() * sizeof(float));
         }
     }
-    return out.good();
+    return out.finish();
 }
 
 SliceLayout layout_of(const CellGrid& grid, const std::vector<WrittenField>& fields) {

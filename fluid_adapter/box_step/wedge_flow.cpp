@@ -11,7 +11,8 @@ constexpr double thickness = 0.5;  // delta/h
 }  // namespace
 
 void WedgeFlow::begin(const std::vector<CellSide>& sides, const BoxLayers& layers,
-                      const VelocityPointers& e, double viscosity, double cell_area, double dt) {
+                      const VelocityPointers& e, double viscosity, double cell_area,
+                      const std::array<double, 3>& a, double dt) {
     layers_ = &layers;
     // k = 1/(1 + 12 nu dt/delta^2)
     const double k = 1.0 / (1.0 + 12.0 * viscosity * dt / (thickness * thickness * cell_area));
@@ -26,8 +27,9 @@ void WedgeFlow::begin(const std::vector<CellSide>& sides, const BoxLayers& layer
         const std::size_t place = layers.face_row(of.axis, j + (of.axis == 1 ? next : 0),
                                                   depth + (of.axis == 2 ? next : 0)) +
                                   i + (of.axis == 0 ? next : 0);
+        const double driven = of.held ? driven_ * dt * a[of.axis] : 0.0;
         faces_[j].push_back(
-            {i, depth, static_cast<int>(place), of.axis, of.side, k * e[of.axis][place]});
+            {i, depth, static_cast<int>(place), of.axis, of.side, k * e[of.axis][place] + driven});
     }
 }
 

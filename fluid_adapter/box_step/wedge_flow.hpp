@@ -10,9 +10,13 @@
 //     de/dt  =  -phi dp/dn - 12 nu/delta^2 e        (flow between two plates)
 //     e      =  k (e_old - phi dt dp/dn),           k = 1/(1 + 12 nu dt/delta^2)
 //
-// h is the size of the cells that are not stretched. Valid C++17.
+// h is the size of the cells that are not stretched. A body force a drives the liquid against what
+// does not move with it: between bodies whose motion is prescribed a film feels a - dp/dn. Free
+// ones are accelerated with the liquid, and their films are taken to feel the pressure alone. Valid
+// C++17.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,11 +30,12 @@ namespace turbidite {
 class WedgeFlow {
  public:
     /// Begins a window of length dt [s] in which these `sides` of cells carry a film, every face
-    /// from both of its cells; e as BoxStep::excess, nu [m2/s], h^2 [m2].
+    /// from both of its cells; e as BoxStep::excess, nu [m2/s], h^2 [m2], a [m/s2].
     void begin(const std::vector<CellSide>& sides, const BoxLayers& layers,
-               const VelocityPointers& e, double viscosity, double cell_area, double dt);
+               const VelocityPointers& e, double viscosity, double cell_area,
+               const std::array<double, 3>& a, double dt);
 
-    /// out += share div(e of the last window that remains), of layer j.
+    /// out += share div(what does not depend on p), of layer j.
     void add_kept(int j, double share, double* out) const;
 
     /// out -= step div(k phi grad p) of layer j, of which p and the layers beside it have been
@@ -45,7 +50,7 @@ class WedgeFlow {
         int i, k;                // of the cell in its layer
         int place;               // in e of the axis
         std::int8_t axis, side;  // as in CellSide
-        double kept;             // k e_old
+        double kept;             // k (e_old + phi dt a)
     };
 
     double width(int axis, int j) const;

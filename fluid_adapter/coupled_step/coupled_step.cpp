@@ -46,9 +46,9 @@ void CoupledStep::add_impulses(double sign, VelocityRows& u) {
     box_.add_impulses(sign, dt_, step_.pressure(), viscosity_.impulse(), u.pointers());
 }
 
-void CoupledStep::place_grains(Constraint& constraint) {
+void CoupledStep::place_grains(Constraint& constraint, const std::array<double, 3>& a) {
     // k = 1/(1 + 4 nu dt/h2): what the excess flux of the last window still counts for
-    pressure_.begin(constraint, dt_, step_.kept_excess(dt_));
+    pressure_.begin(constraint, dt_, step_.kept_excess(dt_), a);
 }
 
 /// Conjugate directions need W to be symmetric, which it is as far as the slip is reduced: 1e-2 is
@@ -99,7 +99,7 @@ CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& giv
         return !result.broke_down && (result.converged || !to_tolerance);
     };
     report.converged = met(report.viscosity, limits.iterated || !one_viscous_iteration_will_do()) &&
-                       met(report.pressure, limits.iterated);
+                       met(report.pressure, limits.iterated || limits.pressure.most > 1);
     return report;
 }
 

@@ -57,8 +57,9 @@ class CoupledStep {
     /// Keeps s of the next window.
     void keep_unconstrained(bool keep) { keep_ = keep; }
 
-    /// Once per window, before the first correct.
-    void place_grains(Constraint& constraint);
+    /// Once per window, before the first correct. `a`: of a body force on the fluid [m/s2], which
+    /// the velocity has had.
+    void place_grains(Constraint& constraint, const std::array<double, 3>& a = {});
 
     CoupledReport correct(RigidGrains& grains, const CoupledLimits& limits);
 

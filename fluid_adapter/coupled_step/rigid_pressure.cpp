@@ -15,7 +15,8 @@ constexpr double rounding = 1e-12;
 
 }  // namespace
 
-void RigidPressure::begin(Constraint& constraint, double dt, double k) {
+void RigidPressure::begin(Constraint& constraint, double dt, double k,
+                          const std::array<double, 3>& a) {
     dt_ = dt;
     work_.images.have(step_.layers().components());
     residual().resize(step_.cells());
@@ -25,7 +26,7 @@ void RigidPressure::begin(Constraint& constraint, double dt, double k) {
     // Found anew at each call
     const std::vector<CellSide>& films = constraint.film_sides();
     film_.begin(films, step_.layers(), step_.excess_pointers(), step_.viscosity(),
-                step_.cell_area(), dt);
+                step_.cell_area(), a, dt);
     find_enclosed(constraint, films);
 }
 

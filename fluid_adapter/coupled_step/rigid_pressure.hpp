@@ -28,8 +28,8 @@ class RigidPressure {
     }
 
     /// Takes the grains' places in a window of length dt [s]; k is the part of the excess flux that
-    /// remains outside grains.
-    void begin(Constraint& constraint, double dt, double k);
+    /// remains outside grains, a the acceleration by a body force [m/s2].
+    void begin(Constraint& constraint, double dt, double k, const std::array<double, 3>& a);
 
     /// Corrects the window's velocity and p until the rms of r is below the tolerance [1/s].
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);

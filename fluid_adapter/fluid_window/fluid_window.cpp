@@ -171,7 +171,8 @@ void FluidWindow::answer(const char* name, Take take) {
         field_.load(multipliers_.constraint());
         note(multipliers_.solve());
     });
-    if (CoupledStep* coupled = step_.coupled()) coupled->place_grains(multipliers_.constraint());
+    if (CoupledStep* coupled = step_.coupled())
+        coupled->place_grains(multipliers_.constraint(), run_.acceleration);
     correct_fluid(before_contacts(coupled_limits_));
     so_far_.grains_taken = true;
 }

@@ -50,7 +50,11 @@ void FoamStore::show(const std::vector<ImmersedGrain>& grains) {
 
 void FoamStore::write(const std::vector<ImmersedGrain>& grains) {
     output_.compute(*field_, grains);
-    fields_.time.writeNow();
+    // OpenFOAM's own errors stop the program, but a file that cannot be opened is only told here.
+    if (!fields_.ranks.all(fields_.time.writeNow()))
+        throw Failure(ExitCode::participant_failed, "OpenFOAM cannot write the fields at time " +
+                                                        std::string(fields_.time.timeName()) +
+                                                        ": is the disk full, or out of inodes?");
 }
 
 void FoamStore::write_slices(const std::vector<ImmersedGrain>& grains) {

@@ -10,6 +10,8 @@ struct CellSide {
     int cell;  ///< local index
     std::int8_t axis;
     std::int8_t side;  ///< -1: towards the origin, +1
+    /// Of a film: what is on either side of it moves as prescribed, whatever forces act.
+    bool held = false;
 };
 
 }  // namespace turbidite

@@ -28,6 +28,7 @@ class Scene:
 
     def __init__(self):
         self.body_of = {}   # grain id -> body id
+        self.materials = set()  # labels
         self.walls = {}     # body id -> side: 0 left, 1 right, 2 bottom, 3 top, 4 front, 5 back
         self.largest = 0.0  # radius
         self.script = users_script.NoScript()
@@ -50,7 +51,8 @@ class Scene:
         """Springs in series have k = k1 k2/(k1 + k2). With k_i = m_i w^2 every pair of grains has its reduced mass
         times w^2, and a contact with a wall, which has no spring of its own, the disc's m w^2."""
         label = 'mass %r' % mass
-        if label not in [material.label for material in O.materials]:
+        if label not in self.materials:
+            self.materials.add(label)
             dry = TANGENTIAL[3 if self.in_space else 2]
             tangential = float(self.settings.get('run.md_tangential_share', dry))  # with what springs move in a fluid
             spring, dashpot = mass * self.frequency**2, 2.0 * self.damping * mass * self.frequency

@@ -210,13 +210,15 @@ void remove_later_times(const fs::path& fluid_case, double time) {
     for (const fs::path& folder : later) fs::remove_all(folder);
 }
 
-/// Files NAME_00000100.vtr of a series that were written after so many windows.
+/// Files NAME_00000100.vtr of a series that were written after so many windows, and what a program
+/// that was killed has left of one (.part).
 void remove_later_files(const fs::path& series, std::int64_t windows) {
     std::error_code none;
     std::vector<fs::path> later;
     for (const auto& entry : fs::directory_iterator(series, none)) {
         const std::string name = entry.path().stem().string();
         const std::size_t number = name.rfind('_');
+        if (entry.path().extension() == ".part") later.push_back(entry.path());
         if (entry.path().extension() != ".vtr" || number == std::string::npos) continue;
         if (std::strtoll(name.c_str() + number + 1, nullptr, 10) > windows)
             later.push_back(entry.path());

@@ -27,6 +27,8 @@ bool move_as_one(const ImmersedGrain& a, const ImmersedGrain& b) {
 
 void SphereCells::find(const std::vector<ImmersedGrain>& grains) {
     grains_ = &grains;
+    prescribed_.clear();
+    for (const ImmersedGrain& grain : grains) prescribed_.push_back(grain.prescribed);
     shut_in_ = 0;
     owners_.clear();
     beside_runs_.clear();
@@ -212,7 +214,7 @@ const Wedges& SphereCells::find_wedges() {
     wedges_.clear();
     for (const std::vector<CellRun>& runs : runs_)
         for (const CellRun& run : runs) wedges_.add_run(place_of(run.cell), run.count);
-    wedges_.find_sides();
+    wedges_.find_sides(prescribed_);
     return wedges_;
 }
 

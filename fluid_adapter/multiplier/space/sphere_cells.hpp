@@ -8,6 +8,7 @@
 // pressure would be tied to no other. Valid C++17.
 #pragma once
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -75,6 +76,7 @@ class SphereCells {
 
     LayerCells cells_;
     const std::vector<ImmersedGrain>* grains_ = nullptr;
+    std::vector<std::uint8_t> prescribed_;      // by grain
     std::vector<std::vector<int>> neighbours_;  // by grain: near ones
     std::vector<std::vector<CellRun>> runs_;    // by grain
     CellOwners owners_;

@@ -54,12 +54,22 @@ bool Wedges::has_beside(const CellPlace& next) const {
     return cells_.owns(at.j) ? in_it_[number(at)] != 0 : has(at);
 }
 
-void Wedges::find_sides() {
+/// Whether the cell is of a sphere that forces move; indices need not be wrapped.
+bool Wedges::is_free(const CellPlace& at, const std::vector<std::uint8_t>& prescribed) const {
+    const int own = owners_[at];
+    return own >= 0 && prescribed[static_cast<std::size_t>(own)] == 0;
+}
+
+void Wedges::find_sides(const std::vector<std::uint8_t>& prescribed) {
     sides_.clear();
     for (const CellPlace& at : places_)
         for (const std::int8_t axis : {0, 1, 2})
-            for (const std::int8_t side : {-1, 1})
-                if (has_beside(at.beside(axis, side))) sides_.push_back({number(at), axis, side});
+            for (const std::int8_t side : {-1, 1}) {
+                const CellPlace next = at.beside(axis, side);
+                if (!has_beside(next)) continue;
+                const bool held = !is_free(at, prescribed) && !is_free(next, prescribed);
+                sides_.push_back({number(at), axis, side, held});
+            }
 }
 
 }  // namespace turbidite

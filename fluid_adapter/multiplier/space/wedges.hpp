@@ -24,8 +24,8 @@ class Wedges {
     /// Adds those of `count` cells along x of this rank, which are spheres' or shut in.
     void add_run(const CellPlace& first, int count);
 
-    /// When all runs have been added.
-    void find_sides();
+    /// When all runs have been added. `prescribed`: of the spheres, by index.
+    void find_sides(const std::vector<std::uint8_t>& prescribed);
 
     /// Faces between two cells of wedges, from every one of them that is this rank's.
     const std::vector<CellSide>& sides() const { return sides_; }
@@ -33,6 +33,7 @@ class Wedges {
  private:
     bool has(const CellPlace& at) const;
     bool has_beside(const CellPlace& next) const;
+    bool is_free(const CellPlace& at, const std::vector<std::uint8_t>& prescribed) const;
     int number(const CellPlace& at) const { return cells_.cell(at.i, at.j, at.k); }
 
     const LayerCells& cells_;

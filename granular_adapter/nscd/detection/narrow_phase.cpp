@@ -59,14 +59,20 @@ const std::vector<WallDetectorEntry>& wall_detector_list() {
 }
 
 NarrowPhase::NarrowPhase(const ShapeTable& shapes) : polygons_(shapes) {
+    // Few kinds, and as many shapes as a scene has polygons.
+    std::vector<std::string> kinds;
     for (const ShapeRecord& shape : shapes) {
-        kinds_.push_back(shape.kind);
+        const auto known = std::find(kinds.begin(), kinds.end(), shape.kind);
+        kind_.push_back(static_cast<std::size_t>(known - kinds.begin()));
+        if (known != kinds.end()) continue;
+        kinds.push_back(shape.kind);
         walls_.push_back(find_wall_detector(shape.kind));
     }
+    kinds_ = kinds.size();
     // The table has each pair once, in alphabetical order: where b comes first, the detector takes
     // the bodies exchanged, and its points are exchanged back.
-    for (const std::string& a : kinds_)
-        for (const std::string& b : kinds_)
+    for (const std::string& a : kinds)
+        for (const std::string& b : kinds)
             pairs_.push_back({find_pair_detector(std::min(a, b), std::max(a, b)), b < a});
 }
 
@@ -76,9 +82,8 @@ void NarrowPhase::check(const Wall& wall) const {
 }
 
 void NarrowPhase::pair(const PairView& view, std::vector<ContactPoint>& points) const {
-    const auto shape_a = static_cast<std::size_t>(view.bodies.shape[view.a]);
-    const auto shape_b = static_cast<std::size_t>(view.bodies.shape[view.b]);
-    const PairChoice& choice = pairs_.at(shape_a * kinds_.size() + shape_b);
+    const std::size_t a = kind_of(view.bodies, view.a), b = kind_of(view.bodies, view.b);
+    const PairChoice& choice = pairs_.at(a * kinds_ + b);
     if (!choice.swapped) return choice.detect(view, points);
     const std::size_t before = points.size();
     // The offset is from the first body to the second, so it is turned with them.
@@ -94,7 +99,7 @@ void NarrowPhase::wall(const WallView& view, std::vector<ContactPoint>& points) 
     const double half = view.wall.half_thickness;
     const WallView of_line{view.bodies,     view.body,         view.wall,
                            view.wall_index, view.alert + half, view.placed};
-    walls_.at(static_cast<std::size_t>(view.bodies.shape[view.body])).detect(of_line, points);
+    walls_.at(kind_of(view.bodies, view.body)).detect(of_line, points);
     for (std::size_t i = before; i < points.size(); ++i) points[i].gap -= half;
 }
 

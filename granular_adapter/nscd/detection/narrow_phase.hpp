@@ -73,8 +73,13 @@ class NarrowPhase {
         PairDetector detect;
         bool swapped;  ///< the detector takes b first
     };
+    std::size_t kind_of(const Bodies& bodies, std::size_t body) const {
+        return kind_.at(static_cast<std::size_t>(bodies.shape[body]));
+    }
+
     PolygonShapes polygons_;
-    std::vector<std::string> kinds_;
+    std::vector<std::size_t> kind_;  ///< by shape
+    std::size_t kinds_ = 0;
     std::vector<PairChoice> pairs_;         ///< kind a x kind b
     std::vector<WallDetectorEntry> walls_;  ///< by kind
 };

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "coupler/checkpoint/checkpoint_sets.hpp"
@@ -33,7 +32,7 @@ void require_beginning(const RunFolder& folder) {
 
 void require_newest(const RunFolder& folder, const std::string& set) {
     const std::vector<std::string> sets = CheckpointSets(folder.root).names();
-    if (std::find(sets.begin(), sets.end(), set) == sets.end())
+    if (sets.empty())
         throw refused(folder, fmt::format("has no checkpoint {} any more", set),
                       how_to_go_on(folder));
     if (sets.front() != set)

@@ -36,6 +36,8 @@ Place beside(Place at, int axis, int side) {
 
 class FilmOnEveryFace : public testing::Test {
  protected:
+    static constexpr std::array<double, 3> a{3.0, -2.0, 5.0};
+
     FilmOnEveryFace() {
         const std::size_t count = step.cells();
         p.resize(count), u.assign(count, 0.0), w.assign(count, 0.0), r.resize(count);
@@ -46,10 +48,10 @@ class FilmOnEveryFace : public testing::Test {
                 for (const std::size_t face : faces(at, axis))
                     step.excess(axis)[face] = old[axis][cell(at)];
                 for (const int side : {-1, 1})
-                    sides.push_back(
-                        {cell(at), static_cast<std::int8_t>(axis), static_cast<std::int8_t>(side)});
+                    sides.push_back({cell(at), static_cast<std::int8_t>(axis),
+                                     static_cast<std::int8_t>(side), is_held(axis)});
             }
-        film.begin(sides, step.layers(), step.excess_pointers(), nu, step.cell_area(), dt);
+        film.begin(sides, step.layers(), step.excess_pointers(), nu, step.cell_area(), a, dt);
     }
 
     static std::vector<Place> places() {
@@ -71,10 +73,14 @@ class FilmOnEveryFace : public testing::Test {
         return list;
     }
 
-    /// e = k (e_old - phi dt dp/dn) on the face below a cell.
+    /// Between bodies that no force moves; the same for both copies of a face.
+    static bool is_held(int axis) { return axis != 1; }
+
+    /// e = k (e_old + phi dt (a - dp/dn)) on the face below a cell, a between held bodies alone.
     double flux(const Place& at, int axis) const {
         const double slope = (p[cell(at)] - p[cell(beside(at, axis, -1))]) / h[axis];
-        return k * (old[axis][cell(at)] - phi * dt * slope);
+        const double force = is_held(axis) ? a[axis] : 0.0;
+        return k * (old[axis][cell(at)] + phi * dt * (force - slope));
     }
 
     ExcessFlux excess() { return {step.excess_pointers(), w.data(), &film}; }

@@ -160,7 +160,7 @@ TEST_P(Operators, TheExcessOfSteadyFlowDoesNotDependOnTheStep) {
 
 TEST_P(Operators, AreSymmetricWithWedges) {
     WedgeFlow wedges;
-    wedges.begin(some_faces(), step.layers(), step.excess_pointers(), 0.01, step.cell_area(),
+    wedges.begin(some_faces(), step.layers(), step.excess_pointers(), 0.01, step.cell_area(), {},
                  time_step);
     std::vector<double> a(size()), b(size());
     const std::vector<double> w(size(), 0.0);
@@ -179,7 +179,7 @@ TEST_P(Operators, TheFilmInWedgesIsTheFluxOfTheResidual) {
     fill_randomly(p, 1);
     fill_randomly(step.excess(0), 7), fill_randomly(step.excess(1), 8);
     WedgeFlow wedges;
-    wedges.begin(some_faces(), step.layers(), step.excess_pointers(), 0.01, step.cell_area(),
+    wedges.begin(some_faces(), step.layers(), step.excess_pointers(), 0.01, step.cell_area(), {},
                  time_step);
     const ExcessFlux excess{step.excess_pointers(), w.data(), &wedges};
     expect_flux_of_residual(p, excess);
@@ -196,7 +196,7 @@ TEST_P(Operators, TheFilmInWedgesApproachesTheFlowBetweenPlates) {
     WedgeFlow wedges;
     std::vector<double> fluxes;
     for (int window = 0; window < 20; ++window) {
-        wedges.begin(sides, step.layers(), step.excess_pointers(), viscosity, step.cell_area(),
+        wedges.begin(sides, step.layers(), step.excess_pointers(), viscosity, step.cell_area(), {},
                      0.001);
         box.update_excess(0.001, p.data(), {step.excess_pointers(), w.data(), &wedges});
         fluxes.push_back(step.excess(0)[20 * (cells_across + 1) + face]);

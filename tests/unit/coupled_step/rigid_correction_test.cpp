@@ -48,7 +48,7 @@ TEST_P(Correction, PressureEndsSolenoidalAndRigid) {
         CorrectionWork work;
         RigidPressure pressure(tank.step, work);
         RigidGrains grains = tank.rigid();
-        pressure.begin(tank.constraint, time_step, 1.0);
+        pressure.begin(tank.constraint, time_step, 1.0, {});
         const Planar momentum = tank.momentum();
         const std::vector<Planar> impulses = tank.constraint.flow().impulses();
         EXPECT_GE(pressure.correct(tank.box, grains, to_the_end).iterations, 3);
@@ -78,7 +78,7 @@ TEST_P(Correction, PressureGoesOnWhereItStopped) {
     CorrectionWork work;
     RigidPressure pressure(tank.step, work);
     RigidGrains grains = tank.rigid();
-    pressure.begin(tank.constraint, time_step, 1.0);
+    pressure.begin(tank.constraint, time_step, 1.0, {});
     const IterationResult some = pressure.correct(tank.box, grains, {3, 1e-6});
     EXPECT_EQ(some.iterations, 3);
     EXPECT_FALSE(some.converged);
@@ -93,7 +93,7 @@ TEST_P(Correction, WithoutGrainsOneIterationIsExact) {
     CorrectionWork work;
     RigidPressure pressure(tank.step, work);
     RigidGrains grains = tank.rigid();
-    pressure.begin(tank.constraint, time_step, 1.0);
+    pressure.begin(tank.constraint, time_step, 1.0, {});
     const IterationResult result = pressure.correct(tank.box, grains, {1, 1e-6});
     EXPECT_EQ(result.iterations, 1);
     EXPECT_TRUE(result.converged) << result.residual;
@@ -153,7 +153,7 @@ TEST_P(Correction, OneIterationAlreadyTakesMostOfTheDivergence) {
     CorrectionWork work;
     RigidPressure pressure(tank.step, work);
     RigidGrains grains = tank.rigid();
-    pressure.begin(tank.constraint, time_step, 1.0);
+    pressure.begin(tank.constraint, time_step, 1.0, {});
     const double first = pressure.correct(tank.box, grains, {0, 0.0}).residual;
     const double second = pressure.correct(tank.box, grains, {1, 0.0}).residual;
     EXPECT_LT(second, 0.5 * first);
