@@ -22,9 +22,9 @@ class WithoutWalls {
 
 }  // namespace
 
-std::vector<char> contact_memory(nscd::Engine& engine) {
+std::vector<char> contact_memory(nscd::Engine& engine, const nscd::KeyNames* names) {
     const WithoutWalls apart(engine);
-    return engine.save_memory();
+    return engine.save_memory(names);
 }
 
 void restore_contact_memory(nscd::Engine& engine, const std::vector<char>& bytes) {

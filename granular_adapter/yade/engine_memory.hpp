@@ -10,7 +10,8 @@
 
 namespace turbidite::yade {
 
-std::vector<char> contact_memory(nscd::Engine& engine);
+/// `names`: under which its contacts are kept; null: their own.
+std::vector<char> contact_memory(nscd::Engine& engine, const nscd::KeyNames* names = nullptr);
 
 /// Throws std::invalid_argument for anything not written by contact_memory.
 void restore_contact_memory(nscd::Engine& engine, const std::vector<char>& bytes);

@@ -58,6 +58,7 @@ class Scene:
     def __init__(self):
         self.body_of = {}  # grain id -> body id
         self.labels = []   # labels of YADE's materials, by material index of the grains
+        self.sides, self.plates = [], []  # body ids of the walls
         self.case = {}
         self.script = None       # users_script
         self.participant = None  # turbidite_yade.Participant, when windows are played
@@ -118,8 +119,8 @@ class Scene:
         root = math.sqrt(3)
         corners = [((-1.5 * h, 0, -0.5 * root * h), (1.5 * h, 0, -0.5 * root * h), (0, 0, root * h))
                    for h in half_lengths]
-        ids = [O.bodies.append(utils.facet(triangle, material='grains')) for triangle in corners]
-        return [O.bodies[i].state for i in ids]
+        self.plates = [O.bodies.append(utils.facet(triangle, material='grains')) for triangle in corners]
+        return [O.bodies[i].state for i in self.plates]
 
     def complete(self):
         """Called when bodies are in place: adds the engines and runs the user's additions to the scene."""
@@ -151,13 +152,14 @@ class Scene:
             participant.step()
 
     def play_window(self):
-        """Runs one window and stores the contact impulses, so that O.save after it includes them."""
+        """Runs one window and stores the contact impulses, so that O.save in a script includes them."""
         if not self.participant.step():
             self.over = True
             # Not O.pause(): O.run would return while engines after this one still work on the step, and YADE's exit,
             # which waits for its thread without releasing Python's lock, would wait for ever.
             O.stopAtIter = O.iter + 1
-        self.store.keep(self.participant.contacts())
+        if self.script.may_save:
+            self.store.keep(self.participant.contacts())
 
     def erase(self, ids):
         bodies = [self.body_of.pop(grain) for grain in ids]

@@ -24,6 +24,8 @@ def complete_scene(settings):
 
 
 class NoScript:
+    may_save = False  # the scene, by O.save
+
     def check(self, moved=None):
         pass
 
@@ -50,6 +52,8 @@ class NoScript:
 
 
 class Script:
+    may_save = True
+
     # In O.tags, which a saved scene contains: places of the engines of the case among all of them.
     PLACES = 'turbidite_engines'
 

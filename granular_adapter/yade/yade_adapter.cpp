@@ -94,9 +94,24 @@ Motion YadeAdapter::initialise(const Settings& settings, const ShapeTable& shape
     sides_ = BodyStates(scene_.attr("side_states")());
     demand_all_sides(sides_.size(), engine_.engine().walls());
     plates_ = BodyStates(scene_.attr("create_plates")(plate_list(engine_.engine().walls())));
+    name_bodies();
     write_bodies();
     scene_.attr("complete")();
     return motion;
+}
+
+void YadeAdapter::name_bodies() {
+    const auto number = [](const python::object& id) { return python::extract<GrainId>(id)(); };
+    const python::object bodies = scene_.attr("body_of");
+    for (const GrainId id : std::as_const(engine_).bodies().id)
+        names_.bodies[id] = number(bodies[id]);
+    const python::object sides = scene_.attr("sides"), plates = scene_.attr("plates");
+    int side = 0, plate = 0;
+    for (const nscd::Wall& wall : std::as_const(engine_).engine().walls())
+        if (is_plate(wall))
+            names_.walls[wall.key] = number(plates[plate++]);
+        else if (is_in_the_scene(wall))
+            names_.walls[wall.key] = number(sides[side++]);
 }
 
 void YadeAdapter::begin_window(const Window& window) {
@@ -163,7 +178,7 @@ void YadeAdapter::erase_leavers(const std::vector<GrainId>& in_scene) {
 }
 
 std::vector<char> YadeAdapter::contacts() {
-    return contact_memory(engine_.engine());
+    return contact_memory(engine_.engine(), &names_);
 }
 
 SavedState YadeAdapter::save() const {

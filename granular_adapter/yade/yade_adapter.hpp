@@ -36,16 +36,18 @@ class YadeAdapter final : public GrainsAdapter {
     SavedState save() const override;
     void restore(const SavedState& state) override;
 
-    /// Contact memory, for scenes saved by YADE.
+    /// Contact memory under the ids of YADE's bodies, for scenes saved by YADE.
     std::vector<char> contacts();
 
  private:
+    void name_bodies();
     void begin_window(const Window& window);
     void write_bodies();
     void erase_leavers(const std::vector<GrainId>& in_scene);
 
     boost::python::object scene_;
     mutable NscdAdapter engine_;  ///< save() reads bodies into it, as the next window would
+    nscd::KeyNames names_;        ///< of grains and walls in YADE
     BodyExchange exchange_;
     BodyStates sides_;   ///< walls of the box in YADE, for display and recorders
     BodyStates plates_;  ///< walls inside the box in YADE

@@ -105,6 +105,38 @@ for name in ('first', 'saved'):
     EXPECT_SAYS(loaded.out, "saved 6 falls");
 }
 
+// Bonds are kept under the ids of the bodies: without its own the lower disc would fall, since no
+// bonds form after the first step of a run.
+TEST_F(UsersScript, BondsOfASavedSceneHoldItsBodies) {
+    scratch.write("grains.csv", "id,x,y,motion\n3,3,5.4,fixed\n7,3,4.4,free\n");
+    scratch.write("case.yaml", R"(
+domain: {size: [6, 6], left: wall, right: wall, bottom: wall, top: wall}
+grains: {adapter: yade-nscd, file: grains.csv, script: mine.py, density_ratio: 1.5}
+fluid: {enabled: false}
+contact: {adhesion: cohesion, adhesion_force: 20, adhesion_range: 0.01, adhesion_shear: 20}
+time: {step: 0.0125, end: 0.25}
+)");
+    script(
+        "O.engines = O.engines + [PyRunner(command=\"O.save('FOLDER/saved.yade.gz')\", "
+        "iterPeriod=10)]");
+    const Answer answer = run();
+    ASSERT_EQ(answer.code, 0) << answer.out << answer.err;
+    scratch.write("load.py", R"(
+import turbidite_contact
+O.load(')" + scratch.path().string() +
+                                 R"(/saved.yade.gz')
+O.engines = [engine for engine in O.engines if engine.label.startswith('turbidite')]
+turbidite_contact.attach(gravity=(0, -1, 0), adhesion='cohesion', adhesion_force=20, adhesion_range=0.01,
+                         adhesion_shear=20, diameter=1)
+before = O.bodies[5].state.pos[1]
+O.run(100, True)
+print(len(O.bodies), 'hangs' if before - O.bodies[5].state.pos[1] < 1e-6 else 'falls')
+)");
+    const Answer loaded = shell(program + " yade load.py");
+    EXPECT_EQ(loaded.code, 0) << loaded.out << loaded.err;
+    EXPECT_SAYS(loaded.out, "6 hangs");
+}
+
 TEST_F(UsersScript, RecordsAndSavesBesideMolecularDynamics) {
     script(recorder);
     const Answer answer = run(md);

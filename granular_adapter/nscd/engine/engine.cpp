@@ -425,9 +425,9 @@ void Engine::restore_from(const std::vector<std::vector<char>>& of_ranks) {
     forget_step();
 }
 
-std::vector<char> Engine::save_memory() const {
+std::vector<char> Engine::save_memory(const KeyNames* names) const {
     ByteWriter out;
-    write_memory(out, saved_memory());
+    write_memory(out, names ? renamed(saved_memory(), *names) : saved_memory());
     return out.take();
 }
 

@@ -173,7 +173,7 @@ class Engine {
     /// Walls and contact memory only, for hosts that store the bodies themselves.
     ContactMemory& memory() { return memory_; }
     const ContactMemory& memory() const { return memory_; }
-    std::vector<char> save_memory() const;
+    std::vector<char> save_memory(const KeyNames* names = nullptr) const;
     void restore_memory(const std::vector<char>& state);
 
  private:

@@ -31,7 +31,37 @@ void read_walls(ByteReader& in, bool space, std::vector<Wall>& walls) {
                        [&in](auto& value) { value = in.value<std::decay_t<decltype(value)>>(); });
 }
 
+GrainId name_in(const std::unordered_map<GrainId, GrainId>& names, GrainId id) {
+    const auto found = names.find(id);
+    return found == names.end() ? -1 : found->second;
+}
+
+/// Whether the contact has a key under these names, which it is given.
+bool rename(ContactKey& key, const KeyNames& names) {
+    const bool pair = key.wall == 0;
+    key.first = name_in(pair ? names.bodies : names.walls, key.first);
+    key.second = name_in(names.bodies, key.second);
+    return key.first >= 0 && key.second >= 0 && (!pair || key.first < key.second);
+}
+
+template <class Remembered>
+void rename_all(std::vector<Remembered>& contacts, const KeyNames& names) {
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
+                                  [&](Remembered& one) { return !rename(one.key, names); }),
+                   contacts.end());
+    std::sort(contacts.begin(), contacts.end(),
+              [](const Remembered& a, const Remembered& b) { return a.key < b.key; });
+}
+
 }  // namespace
+
+SavedMemory renamed(SavedMemory memory, const KeyNames& names) {
+    rename_all(memory.contacts, names);
+    rename_all(memory.states.accepted, names);
+    rename_all(memory.states.found, names);
+    rename_all(memory.moments, names);
+    return memory;
+}
 
 void write_bodies(ByteWriter& out, const Bodies& bodies) {
     out.value(bodies_format);

@@ -4,6 +4,8 @@
 // kind or version are refused.
 #pragma once
 
+#include <unordered_map>
+
 #include "granular_adapter/nscd/laws/contact_states.hpp"
 #include "granular_adapter/nscd/problem/bodies.hpp"
 #include "granular_adapter/nscd/problem/byte_stream.hpp"
@@ -28,6 +30,15 @@ struct SavedMemory {
         {};  ///< of contacts in space; not written in the plane
 };
 void write_memory(ByteWriter& out, const SavedMemory& memory);
+
+/// Other names of bodies and walls: those of a program that the memory is for.
+struct KeyNames {
+    std::unordered_map<GrainId, GrainId> bodies, walls;
+};
+
+/// The memory under these names. Contacts of what has none are left out, and so are pairs of bodies
+/// that would change their order: normals and features are of the first one.
+SavedMemory renamed(SavedMemory memory, const KeyNames& names);
 
 /// Positions and motions of the walls are read, their other properties taken from `walls`. Throws
 /// std::invalid_argument for anything not written by write_memory with the same number of walls and
