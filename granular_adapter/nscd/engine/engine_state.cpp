@@ -46,11 +46,12 @@ bool rename(ContactKey& key, const KeyNames& names) {
 
 template <class Remembered>
 void rename_all(std::vector<Remembered>& contacts, const KeyNames& names) {
-    contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
-                                  [&](Remembered& one) { return !rename(one.key, names); }),
-                   contacts.end());
-    std::sort(contacts.begin(), contacts.end(),
+    std::vector<Remembered> kept;
+    for (Remembered one : contacts)
+        if (rename(one.key, names)) kept.push_back(one);
+    std::sort(kept.begin(), kept.end(),
               [](const Remembered& a, const Remembered& b) { return a.key < b.key; });
+    contacts = std::move(kept);
 }
 
 }  // namespace
