@@ -94,7 +94,6 @@ Motion YadeAdapter::initialise(const Settings& settings, const ShapeTable& shape
     sides_ = BodyStates(scene_.attr("side_states")());
     demand_all_sides(sides_.size(), engine_.engine().walls());
     plates_ = BodyStates(scene_.attr("create_plates")(plate_list(engine_.engine().walls())));
-    name_bodies();
     write_bodies();
     scene_.attr("complete")();
     return motion;
@@ -178,6 +177,8 @@ void YadeAdapter::erase_leavers(const std::vector<GrainId>& in_scene) {
 }
 
 std::vector<char> YadeAdapter::contacts() {
+    // Few runs have a script that may save the scene: others need no names.
+    if (names_.bodies.empty()) name_bodies();
     return contact_memory(engine_.engine(), &names_);
 }
 

@@ -179,7 +179,7 @@ OwnFolder folder_for(const fs::path& wanted, const RunOrder& order) {
     fs::create_directories(folder.root);
     std::shared_ptr<RunLock> lock = RunLock::take(folder.root);
     if (!lock)
-        throw folder_refused(wanted, "is in use by a run that has not ended",
+        throw folder_refused(wanted, RunLock::in_use,
                              "Wait for it, stop it, or choose another --out.");
     // Only what looks like a run is emptied, and only with the lock.
     if (order.force && is_run_folder(folder))

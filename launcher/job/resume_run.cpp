@@ -35,9 +35,7 @@ std::shared_ptr<RunLock> lock_of(const RunFolder& folder, const fs::path& as_giv
         throw refused(as_given, "is not a run folder: it has no case.yaml",
                       "Give the folder of a run, as `turbidite run` named it.");
     std::shared_ptr<RunLock> lock = RunLock::take(folder.root);
-    if (!lock)
-        throw refused(as_given, "is in use by a run that has not ended",
-                      "Wait for it, or stop it: create a file STOP in the folder.");
+    if (!lock) throw refused(as_given, RunLock::in_use, RunLock::how_to_get_it);
     return lock;
 }
 

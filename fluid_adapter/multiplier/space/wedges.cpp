@@ -62,14 +62,16 @@ bool Wedges::is_free(const CellPlace& at, const std::vector<std::uint8_t>& presc
 
 void Wedges::find_sides(const std::vector<std::uint8_t>& prescribed) {
     sides_.clear();
-    for (const CellPlace& at : places_)
+    for (const CellPlace& at : places_) {
+        const bool held_here = !is_free(at, prescribed);
         for (const std::int8_t axis : {0, 1, 2})
             for (const std::int8_t side : {-1, 1}) {
                 const CellPlace next = at.beside(axis, side);
                 if (!has_beside(next)) continue;
-                const bool held = !is_free(at, prescribed) && !is_free(next, prescribed);
+                const bool held = held_here && !is_free(next, prescribed);
                 sides_.push_back({number(at), axis, side, held});
             }
+    }
 }
 
 }  // namespace turbidite

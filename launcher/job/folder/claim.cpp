@@ -49,9 +49,7 @@ std::shared_ptr<RunLock> claim(const RunFolder& folder, const std::string& set) 
     std::shared_ptr<RunLock> lock;
     if (std::getenv(RunLock::held_variable) == nullptr) {
         lock = RunLock::take(folder.root);
-        if (!lock)
-            throw refused(folder, "is in use by a run that has not ended",
-                          "Wait for it, or stop it: create a file STOP in the folder.");
+        if (!lock) throw refused(folder, RunLock::in_use, RunLock::how_to_get_it);
     }
     set.empty() ? require_beginning(folder) : require_newest(folder, set);
     return lock;

@@ -28,6 +28,11 @@ class RunLock {
     /// `--dry-run` takes it itself.
     static constexpr const char* held_variable = "TURBIDITE_LOCK_HELD";
 
+    /// What is told of a folder that another process has, and what to do.
+    static constexpr const char* in_use = "is in use by a run that has not ended";
+    static constexpr const char* how_to_get_it =
+        "Wait for it, or stop it: create a file STOP in the folder.";
+
     /// Name of the file in a run folder.
     static constexpr const char* file = "lock";
 

@@ -41,9 +41,8 @@ bool has_windows(const fs::path& folder) {
 fs::path set_aside(const fs::path& folder) {
     const auto lock = RunLock::take(folder);
     if (!lock)
-        throw Failure(ExitCode::bad_input, folder.string() +
-                                               " is in use by a run that has not "
-                                               "ended; it stays where it is");
+        throw Failure(ExitCode::bad_input,
+                      folder.string() + " " + RunLock::in_use + "; it stays where it is");
     const fs::path aside = first_free(folder);
     std::error_code error;
     fs::rename(folder, aside, error);
