@@ -138,21 +138,28 @@ PreparedRun prepare_to_play(const PlannedRun& run, const fs::path& out, const La
     return prepare_afresh(run, folder, site);
 }
 
-/// Empty if it cannot be played now, which then was said.
+/// Empty if it cannot be played now, which then was said; `result` has the code, unless another run
+/// failed before.
 template <class Prepare>
-auto unless_it_waits(const PlannedRun& run, const Prepare& prepare)
+auto unless_it_waits(const PlannedRun& run, ExitCode& result, const Prepare& prepare)
     -> std::optional<decltype(prepare())> {
-    const auto waits = [&](const char* why) {
-        tell_on_stderr(fmt::format("{}: it stays as it is, and the next call tries again: {}",
-                                   run.path(), why));
+    const auto stays = [&](const char* how, const char* why, ExitCode code) {
+        tell_on_stderr(fmt::format("{}: {}: {}", run.path(), how, why));
+        if (result == ExitCode::done) result = code;
     };
+    constexpr const char* waits = "it stays as it is, and the next call tries again";
     try {
         return prepare();
     } catch (const Failure& failure) {
-        if (failure.code() == ExitCode::bad_input || asked_to_stop(failure.code())) throw;
-        waits(failure.what());
+        if (asked_to_stop(failure.code())) throw;
+        // What only shows now: a packing that was poured does not fit, a file is in its folder.
+        if (failure.code() == ExitCode::bad_input)
+            stays("it cannot be played", failure.what(), failure.code());
+        else
+            stays(waits, failure.what(), ExitCode::participant_failed);
     } catch (const fs::filesystem_error& error) {
-        waits(error.what());  // a full disk, a folder that may not be written
+        // A full disk, a folder that may not be written.
+        stays(waits, error.what(), ExitCode::participant_failed);
     }
     return std::nullopt;
 }
@@ -193,13 +200,13 @@ ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan, c
         if (run == nullptr) return result;
         announce(*run, plan, turns, pace);
         const auto start = Clock::now();
-        const auto prepared =
-            unless_it_waits(*run, [&] { return prepare_in_turn(*run, out, site, turns, chosen); });
+        const auto prepared = unless_it_waits(
+            *run, result, [&] { return prepare_in_turn(*run, out, site, turns, chosen); });
         chosen.reset();
-        if (!prepared && result == ExitCode::done) result = ExitCode::participant_failed;
         if (!prepared || !*prepared) continue;
-        const auto outcome = unless_it_waits(*run, [&] { return play(**prepared, site.programs); });
-        const ExitCode code = outcome ? outcome->code : ExitCode::participant_failed;
+        const auto outcome =
+            unless_it_waits(*run, result, [&] { return play(**prepared, site.programs); });
+        const ExitCode code = outcome ? outcome->code : result;
         chosen = turns.lock();
         write_study_record(study, plan, out);
         if (asked_to_stop(code)) return code;

@@ -9,6 +9,7 @@ import json
 import shlex
 import sys
 from dataclasses import asdict, dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import matplotlib
@@ -109,8 +110,12 @@ class Comparison:
     wall: list        # (seconds of the run, of a window on average) per member
     measured: dict    # {member: {column: numbers}}
     peaks: dict       # {member: peaks.MemberPeaks}
-    pairs: list       # peaks.Pair
     surfaces: dict    # {member: Surface}
+
+    @cached_property
+    def pairs(self):
+        """peaks.Pair of each two members; a study, which may have many, does not ask for them."""
+        return peaks.pairs(self.members)
 
 
 def load(folders):
@@ -139,15 +144,18 @@ def measure(members):
     return Comparison(
         members, scales, shown, parameters(members), [findings.wall_seconds(member.data) for member in members],
         {m.name: {q.column: numbers(members[0], m, q.column) for q in shown} for m in members},
-        {m.name: peaks.peaks(m) for m in members}, peaks.pairs(members),
+        {m.name: peaks.peaks(m) for m in members},
         {m.name: member_surface(m) for m in members})
 
 
 def parameters(members):
-    """(key, one value per member) of the keys in which the cases differ, and of their files."""
-    cases = [{**member.data.case, **{f'{what}, fingerprint': text for what, text in member.data.files().items()},
+    """(key, one value per member) of the keys in which the cases differ, and of their files. With equal seeds generated
+    grains are equal, too, unless grains.extra_file has others."""
+    one_seed = len({member.data.case.get(seeds.SEED) for member in members}) == 1
+    files = [member.data.fingerprints if one_seed else member.data.files() for member in members]
+    cases = [{**member.data.case, **{f'{what}, fingerprint': text for what, text in of_member.items()},
               **({'resumed': '; '.join(member.data.changes())} if member.data.changes() else {})}
-             for member in members]
+             for member, of_member in zip(members, files)]
     keys = dict.fromkeys(key for case in cases for key in case)
     rows = [(key, [case.get(key, '') for case in cases]) for key in keys]
     return [(key, values) for key, values in rows if len(set(values)) > 1]

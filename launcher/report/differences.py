@@ -47,18 +47,18 @@ def integral_of_size(times, values):
 
 
 def compared_times(first, second):
-    """Where two curves with these increasing times are compared: at the rows of the one that has fewer in their common
-    span, if the other has them all, since what it has in between is curvature to the one and no difference; otherwise at
-    the rows of both. With the ends of the span, which is returned too; (None, None) without one."""
+    """Where two curves with these increasing times are compared, and the span of these times; (None, None) without a common
+    one. At the rows of the one that has fewer in the common span: what the other has in between is curvature to the one
+    and no difference. Where fewer than two are there, at the rows of both and the ends of the span."""
     span = common_span(first, second)
     if span is None:
         return None, None
     tolerance = SAME_TIME * max(abs(span[0]), abs(span[1]))
     inside = [times[(times >= span[0] - tolerance) & (times <= span[1] + tolerance)] for times in (first, second)]
-    fewer, more = sorted(inside, key=len)
-    coincide = len(fewer) and all(np.abs(more - time).min() <= tolerance for time in fewer)
-    times = np.concatenate([fewer, span] if coincide else [*inside, span])
-    return np.unique(np.clip(times, *span)), span
+    times = np.unique(np.clip(min(inside, key=len), *span))
+    if len(times) < 2:
+        times = np.unique(np.clip(np.concatenate([*inside, span]), *span))
+    return times, (float(times[0]), float(times[-1]))
 
 
 def difference(first, second):

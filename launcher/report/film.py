@@ -12,8 +12,10 @@ import matplotlib
 matplotlib.use('Agg')
 
 import matplotlib.pyplot as plt
+import numpy as np
 from PIL import Image
 
+import grain_files
 import pictures
 import run_data
 from space import scene, sequence
@@ -27,12 +29,47 @@ RESOLUTION = 110   # dots per inch
 QUALITY = 82
 
 
-def frames(run, shown):
-    """A function that draws one picture of the film as a figure, with scales and view that serve all of them."""
+class Shown:
+    """The pictures of all outputs with grains. They are read whenever one goes through them: a long run has more than fit
+    into the memory."""
+
+    def __init__(self, run):
+        self.run = run
+        self.instants = [instant for instant in pictures.all_instants(run) if instant[1] is not None]
+
+    def __len__(self):
+        return len(self.instants)
+
+    def __iter__(self):
+        for instant in self.instants:
+            picture = pictures.load(self.run, instant)
+            if picture.grains is not None:
+                yield picture
+
+
+def outermost(grains):
+    """One grain that reaches as far to the right, upwards and in depth as any of these."""
+    if not len(grains.radii):
+        return grains
+    far = (grains.positions() + grains.radii[:, None]).max(axis=0)
+    return grain_files.Grains(grains.time, far[None, :2], np.zeros(1), z=far[2:])
+
+
+def frames(run, shown, working):
+    """A function that draws one picture of the film as a figure, with scales and view that serve all of them; None without
+    pictures."""
+    limits, ends = [], []
+    for k, picture in enumerate(shown):
+        working(f'reading {k + 1} of {len(shown)}')
+        limits.append(pictures.shown_limit(run, [picture]))
+        ends.append(outermost(picture.grains))
+    if not limits:
+        return None
+    limit = max(limits)
     if run.in_space():
-        frame, limit = scene.frame(run, [one.grains for one in shown], OBLIQUE), pictures.speed_limit(run, shown)
+        frame = scene.frame(run, ends, OBLIQUE)
         return lambda picture: sequence.panel(run, frame, picture.grains, limit)
-    limit, size = pictures.shown_limit(run, shown), pictures.view(run, [one.grains for one in shown])
+    size = pictures.view(run, ends)
     return lambda picture: pictures.panel(run, picture, limit, size)
 
 
@@ -58,12 +95,11 @@ def main(arguments):
         print('usage: film.py RUN   (a run folder of `turbidite run`)', file=sys.stderr)
         return 2
     run = run_data.load_run(arguments[1])
-    shown = [pictures.load(run, instant) for instant in pictures.all_instants(run)]
-    shown = [one for one in shown if one.grains is not None]
-    if not shown:
+    shown, working, images = Shown(run), Progress('film'), []
+    draw = frames(run, shown, working)
+    if draw is None:
         print(f'{run.folder} has no outputs of grains to make a film of', file=sys.stderr)
         return 2
-    draw, working, images = frames(run, shown), Progress('film'), []
     for k, picture in enumerate(shown):
         working(f'picture {k + 1} of {len(shown)}')
         images.append(image_of(draw(picture)))

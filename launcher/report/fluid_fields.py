@@ -165,8 +165,15 @@ def rows_at_equal_heights(edges):
 
 def _class_of(folder, name):
     """OpenFOAM's name of a file's type; empty without one."""
-    found = re.search(rb'\bclass\s+(\w+)\s*;', _contents(folder / name)[:2000])
+    found = re.search(rb'\bclass\s+(\w+)\s*;', _beginning(folder / name))
     return found.group(1).decode() if found else ''
+
+
+def _beginning(path):
+    """With the head of a file, whose fields may have gigabytes."""
+    plain = path.exists()
+    with open(path, 'rb') if plain else gzip.open(path.with_suffix('.gz')) as file:
+        return file.read(2000)
 
 
 def _contents(path):

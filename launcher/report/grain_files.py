@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The series in a run's grains folder, and the content of a file of grains."""
 import xml.etree.ElementTree as ElementTree
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-import run_data
+import vtk_series
 
 
 @dataclass
@@ -30,6 +30,17 @@ class Grains:
             return None
         in_plane = np.hypot(*self.velocities.T)
         return in_plane if self.velocity_z is None else np.hypot(in_plane, self.velocity_z)
+
+    def free(self):
+        """Those whose motion is not prescribed."""
+        if self.prescribed is None or not self.prescribed.any():
+            return self
+        kept = np.flatnonzero(~self.prescribed)
+        arrays = {one.name: getattr(self, one.name) for one in fields(self)}
+        kept_arrays = {name: values[kept] for name, values in arrays.items() if isinstance(values, np.ndarray)}
+        outlines = None if self.outlines is None else {
+            new: self.outlines[old] for new, old in enumerate(kept) if old in self.outlines}
+        return replace(self, **kept_arrays, outlines=outlines)
 
     def positions(self):
         """(n, 3) centres."""
@@ -59,7 +70,7 @@ def grains_at(run, time):
 def series(run, index):
     """(time, path) of the first part of every output."""
     return [(float(entry.get('timestep')), index.parent / entry.get('file'))
-            for entry in run_data.series_entries(run, index) if entry.get('part', '0') == '0']
+            for entry in vtk_series.entries(run, index) if entry.get('part', '0') == '0']
 
 
 def read_grains(time, path):

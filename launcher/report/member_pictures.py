@@ -25,8 +25,10 @@ def add(page, members):
         if span is None:
             return
     times = [span[0] + (span[1] - span[0]) * k / TIMES for k in range(1, TIMES + 1)]
-    page.heading('Pictures')
     whole = [[pictures.load(run, instant_near(run, row, time)) for time in times] for run, row in zip(runs, rows)]
+    if any(picture.grains is None for row in whole for picture in row):
+        return  # a file is missing or damaged, which the remarks say
+    page.heading('Pictures')
     limit = common_limit(list(zip(runs, whole)))
     figures = [side_by_side(run, shown, limit) for run, shown in zip(runs, whole)]
     width = max(width_of(run, shown) for run, shown in zip(runs, whole))

@@ -15,9 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
+import grain_files
 
 GRAINS = 'grains'  # in RunData.fingerprints
 BARE_FROM = 0.9  # of the width: grains that reach so far at first fill the box
+FEWEST_IN_COLUMN = 2  # free grains: one that falls by itself is none
 CONTINUED = ('time.end', 'output.', 'limits.', 'fluid.ranks', 'grains.ranks')  # keys that change no window
 
 
@@ -78,10 +80,30 @@ class RunData:
         return self.case.get('fluid.enabled') != 'false'
 
     def is_avalanche(self):
-        """A column collapses: velocities are in sqrt(g D), and at first the grains leave a part of the floor bare."""
-        _, front = self.column('front_x')
-        bare = not len(front) or 'domain.size' not in self.case or front[0] < BARE_FROM * self.size()[0]
-        return self.case.get('scales.kind') == 'avalanche' and bare
+        """A column collapses: velocities are in sqrt(g D), and at first some free grains, which do not reach to 0.9 of the
+        width, leave a part of the floor bare."""
+        if self.case.get('scales.kind') != 'avalanche':
+            return False
+        count, front = self._free_at_first()
+        bare = front is None or 'domain.size' not in self.case or front < BARE_FROM * self.size()[0]
+        return bare and (count is None or count >= FEWEST_IN_COLUMN)
+
+    def _free_at_first(self):
+        """(number, front [D]) of the grains whose motion is not prescribed, in the first output; by the history, which has
+        all grains, where there is no file of them. None where neither tells it."""
+        if 'first' not in self.measured:
+            self.measured['first'] = self._read_free_at_first()
+        return self.measured['first']
+
+    def _read_free_at_first(self):
+        counts, front = self.column('grains')[1], self.column('front_x')[1]
+        told = int(counts[0]) if len(counts) else None, float(front[0]) if len(front) else None
+        try:
+            grains = grain_files.read_grains(*grain_files.quiet_series(self)[0]).free()
+        except (IndexError, ValueError, KeyError, OSError, AttributeError, SyntaxError):
+            return told
+        ends = (grains.centres[:, 0] + grains.radii) / self.scale('D')
+        return len(ends), float(ends.max()) if len(ends) else None
 
     def is_packed(self):
         """The grains are a packing from the start: they stand on a lattice."""
@@ -213,18 +235,3 @@ def read_history(path):
         raise ValueError('it has no column "time"')
     number = lambda text: float(text) if text not in (None, '') else np.nan
     return {name: np.array([number(row[name]) for row in rows]) for name in names}
-
-
-def series_entries(run, index):
-    """The entries (`timestep`, `part`, `file`) of the index of a series (.pvd). A kill, a full disk or a run at work may have
-    left it without its end: then those that are whole, and a remark."""
-    found = []
-    try:
-        for _, element in ElementTree.iterparse(index):
-            if element.tag == 'DataSet':
-                found.append(element)
-    except ElementTree.ParseError as error:
-        remark = f'{index.relative_to(run.folder)} is cut off or damaged after {len(found)} whole entries: {error}'
-        if remark not in run.remarks:
-            run.remarks.append(remark)
-    return found

@@ -42,7 +42,8 @@ class Member:
 
 def members(runs, each=False, swept=lambda run: ()):
     """One member per run, or, unless `each`, per set of runs whose cases and files, and what a study has `swept`, differ
-    only in the seed. Runs with equal seeds stay single: they are repetitions, whose mean is no average over seeds."""
+    only in the seed. Runs with equal seeds stay single: they are repetitions, whose mean is no average over seeds. So do
+    those that are not done, which would cut the others to their length."""
     groups = [[run] for run in runs] if each else grouped(runs, swept)
     names = unique([name_of(group) for group in groups], groups)
     return [Member(name, group[0] if len(group) == 1 else average(group), group)
@@ -63,8 +64,8 @@ def grouped(runs, swept):
 
 
 def case_without_seed(run):
-    """A run without a readable case belongs to no group."""
-    if not run.case:
+    """A run without a readable case, or that is not done, belongs to no group."""
+    if not run.case or run.record.get('status') != 'done' or run.is_cut_off():
         return id(run)
     return without_seed(run.case), without_seed(run.files()), tuple(run.changes())
 
@@ -123,7 +124,7 @@ def shared_times(runs):
 
 
 def average(runs):
-    """RunData of the group: mean history, largest maxima, worst status."""
+    """RunData of the group, of which all are done: mean history, largest maxima."""
     mean = run_data.RunData(runs[0].folder, record=average_record(runs), case=dict(runs[0].case),
                             fingerprints=runs[0].fingerprints)
     mean.case[SEED] = ', '.join(run.case[SEED] for run in runs)
@@ -138,10 +139,8 @@ def average(runs):
 
 
 def average_record(runs):
-    """The largest maxima over the runs; scales, which are the same for all; the first status other than done."""
+    """The largest maxima over the runs; scales, which are the same for all."""
     record = dict(runs[0].record)
-    statuses = [run.record.get('status', 'unknown') for run in runs]
-    record['status'] = next((status for status in statuses if status != 'done'), 'done')
     tables = [run.record.get('maxima') or {} for run in runs]
     names = [name for name in tables[0] if all(table.get(name) is not None for table in tables)]
     record['maxima'] = {name: max(table[name] for table in tables) for name in names}

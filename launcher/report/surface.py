@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The free surface of a heap: its highest point in each column of width D."""
+"""The free surface of a heap: its highest point in each column of width D. Grains whose motion is prescribed are ground, not
+heap."""
 import itertools
 
 import numpy as np
@@ -10,7 +11,8 @@ from space import free_surface
 
 
 def surface(run, grains):
-    """(centres of the columns, heights), both in D; 0 where there is no grain. In space the mean over the depth."""
+    """(centres of the columns, heights), both in D; 0 where there is no free grain. In space the mean over the depth."""
+    grains = grains.free()
     if run.in_space():
         return free_surface.over_length(run, grains)
     diameter = run.scale('D')
@@ -50,7 +52,8 @@ def top_of_polygon(corners, column):
 
 
 def ends_along_x(run, grains):
-    """(left, right) ends of the grains, or of the outlines of polygons [D]."""
+    """(left, right) ends of the free grains, or of the outlines of polygons [D]."""
+    grains = grains.free()
     diameter = run.scale('D')
     left, right = (grains.centres[:, 0] - grains.radii) / diameter, (grains.centres[:, 0] + grains.radii) / diameter
     for i, corners in (grains.outlines or {}).items():

@@ -112,6 +112,19 @@ std::string with_mpirun(const ScratchFolder& scratch, const std::string& script)
 }
 
 // Which a shell, too, ends with when it finds no command: it says nothing about mpirun.
+TEST_F(StudyRuns, GoesOnWhereARunCannotBePlayed) {
+    const fs::path notes = scratch.path() / "s/frictions/friction-0/notes.txt";
+    fs::create_directories(notes.parent_path());
+    scratch.write("s/frictions/friction-0/notes.txt", "the user's");
+    const Answer answer = study("");
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_SAYS(answer.err, "frictions/friction-0: it cannot be played: ");
+    EXPECT_SAYS(answer.err, "notes.txt");
+    EXPECT_SAYS(answer.out, "2 of 3 runs done");
+    EXPECT_EQ(column("status"), (std::vector<std::string>{"missing", "done", "done"}));
+    EXPECT_EQ(text(notes), "the user's");
+}
+
 TEST_F(StudyRuns, GoesOnAfterAProgramThatEndsWith127) {
     const std::string path =
         with_mpirun(scratch,

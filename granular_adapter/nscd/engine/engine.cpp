@@ -30,7 +30,9 @@ constexpr int turn_rounds = 2;
 
 // A step is solved more exactly while a body sinks into a smaller one by more than this fraction of
 // its radius.
-constexpr double most_sinking = 0.01;
+constexpr double most_sinking(int dimension) {
+    return dimension == 3 ? 1e-3 : 1e-2;
+}
 constexpr double least_tolerance = 1e-13;  // rounding
 
 // Steps that change little are solved before. In space alone: docs/decisions/contact-solvers.md.
@@ -278,7 +280,7 @@ SolverResult Engine::solve_from(const Impulses& guess, double dt) {
     SolverSettings settings = settings_.solver_settings;
     if (in_space()) settings.momentum_after = sweeps_before_momentum;
     SolverResult result = solver_->solve(contacts_.problem, guess, settings);
-    while (result.converged && sinking(result, dt) > most_sinking) {
+    while (result.converged && sinking(result, dt) > most_sinking(settings_.dimension)) {
         settings.tolerance *= 0.1;
         settings.max_iterations = settings_.solver_settings.max_iterations - result.iterations;
         if (settings.max_iterations < 1 || settings.tolerance < least_tolerance) {

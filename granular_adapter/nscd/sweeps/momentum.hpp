@@ -35,9 +35,10 @@ class Momentum {
     /// Before sweeps over the layout, whose groups are always the same.
     void prepare(const SweepLayout<Rows>& layout) {
         if (steps_ > 0) return;
-        bodies_.resize(layout.bodies.size());
-        impulses_.assign(layout.rows.size(), {});
         if (first_use_ends_.empty()) find_first_uses(layout);
+        bodies_.resize(first_uses_.size());
+        impulses_.assign(layout.rows.size(), {});
+        had_impulse_.assign(layout.awake.size(), 0);
     }
 
     /// beta of the sweep after `sweeps` more.
@@ -52,11 +53,13 @@ class Momentum {
         for (std::int32_t i = stretch.active.first; i < stretch.active.last; ++i)
             advance_row(layout, i, beta);
         for (std::int32_t i = stretch.resting.first; i < stretch.resting.last; ++i) {
-            // A group that falls asleep still has the impulses before, and with them momentum.
-            std::uint8_t& awake =
-                layout.awake[static_cast<std::size_t>(i - layout.schedule.active)];
-            if (awake != 0 || has_impulse(impulses_[static_cast<std::size_t>(i)]))
-                awake = advance_row(layout, i, beta) ? 1 : 0;
+            // A group that falls asleep still has the impulses before, and with them momentum. Most
+            // groups have neither, and their impulses are not looked at.
+            const auto resting = static_cast<std::size_t>(i - layout.schedule.active);
+            std::uint8_t &awake = layout.awake[resting], &had = had_impulse_[resting];
+            if ((awake | had) == 0) continue;
+            awake = advance_row(layout, i, beta) ? 1 : 0;
+            had = has_impulse(impulses_[static_cast<std::size_t>(i)]) ? 1 : 0;
         }
     }
     /// ... the bodies that no stretch before this one uses, ...
@@ -79,10 +82,8 @@ class Momentum {
 
     void extrapolate_bodies(SweepLayout<Rows>& layout, std::size_t first, std::size_t last,
                             double beta) {
-        for (std::size_t i = first; i < last; ++i) {
-            const std::size_t slot = first_uses_[i];
-            advance_body(layout.bodies[slot], bodies_[slot], beta);
-        }
+        for (std::size_t i = first; i < last; ++i)
+            advance_body(layout.bodies[first_uses_[i]], bodies_[i], beta);
     }
     static void advance_body(Body& body, Body& before, double beta) {
         const Body now = body;
@@ -126,8 +127,9 @@ class Momentum {
     }
 
     std::size_t steps_ = 0;
-    std::vector<Body> bodies_;                              ///< of x_{k-1}
-    std::vector<RowImpulses> impulses_;                     ///< the same
+    std::vector<Body> bodies_;               ///< of x_{k-1}, in the order of their first uses
+    std::vector<RowImpulses> impulses_;      ///< of x_{k-1}
+    std::vector<std::uint8_t> had_impulse_;  ///< by group at rest, in x_{k-1}
     std::vector<std::size_t> first_uses_, first_use_ends_;  ///< slots of bodies; by stretch
 };
 

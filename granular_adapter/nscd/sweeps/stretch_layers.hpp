@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -55,6 +56,46 @@ struct StretchLayers {
         }
         return layer;
     }
+};
+
+/// The layers while threads work on them. Each thread takes its own stretches and then, since it
+/// cannot be known how long these take, what the others have left of theirs.
+class SharedLayers {
+ public:
+    explicit SharedLayers(const StretchLayers& layers)
+        : layers_(layers.layers), taken_(layers_.size()) {
+        for (std::size_t layer = 0; layer < taken_.size(); ++layer)
+            taken_[layer] = std::vector<Taken>(layers_[layer].size());
+    }
+
+    /// Calls visit(stretch), by all threads together once for each of the layer.
+    template <class Visit>
+    void each(std::size_t layer, int thread, const Visit& visit) {
+        const StretchLayers::Layer& shares = layers_[layer];
+        for (std::size_t n = 0; n < shares.size(); ++n) {
+            const std::size_t share = (static_cast<std::size_t>(thread) + n) % shares.size();
+            std::atomic<std::size_t>& taken = taken_[layer][share].stretches;
+            for (std::size_t at = 0; (at = taken.fetch_add(1, std::memory_order_relaxed)) <
+                                     shares[share].size();)
+                visit(shares[share][at]);
+        }
+    }
+
+    /// For the next time, while no thread is in the layer.
+    void refill(std::size_t layer) {
+        for (Taken& share : taken_[layer]) share.stretches.store(0, std::memory_order_relaxed);
+    }
+
+ private:
+    /// Stretches that have been taken from a share, in a cache line of its own.
+    struct alignas(64) Taken {
+        std::atomic<std::size_t> stretches{0};
+        Taken() = default;
+        Taken(const Taken&) {}
+    };
+
+    const std::vector<StretchLayers::Layer>& layers_;
+    std::vector<std::vector<Taken>> taken_;
 };
 
 }  // namespace turbidite::nscd

@@ -14,6 +14,7 @@
 // (stretch_layers.hpp).
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <optional>
@@ -85,11 +86,15 @@ class SweepPipeline {
     void run_in_layers(std::size_t sweeps, ThreadTeam& team) {
         if (!layers_) layers_.emplace(layout_, team.size());
         ThreadTeam::Meeting meeting(team.size());
+        // Of this sweep and of the one before, which no thread is in any more when it is set back.
+        std::array<SharedLayers, 2> shared{SharedLayers(*layers_), SharedLayers(*layers_)};
         team.run([&](int thread) {
             for (std::size_t sweep = 0; sweep < sweeps; ++sweep)
-                for (const StretchLayers::Layer& layer : layers_->layers) {
-                    for (const std::size_t at : layer[static_cast<std::size_t>(thread)])
+                for (std::size_t layer = 0; layer < layers_->layers.size(); ++layer) {
+                    if (thread == 0) shared[(sweep + 1) % 2].refill(layer);
+                    shared[sweep % 2].each(layer, thread, [&](std::size_t at) {
                         visit_with_bodies(at, sweep);
+                    });
                     meeting.wait();
                 }
         });

@@ -47,8 +47,8 @@ class Analysis:
         raise unknown('measurement', name, self._names())
 
     def numbers(self):
-        """{name: float or None} of all that are numbers."""
-        return {one.name: one.measure(self._data) for one in reader('measured').MEASURED}
+        """{name: float or None} of all that are numbers; None, and a remark of the run, also where files cannot be read."""
+        return {one.name: one.of(self._data) for one in reader('measured').MEASURED}
 
     @staticmethod
     def _names():

@@ -49,7 +49,7 @@ class Run:
 
     @property
     def state(self):
-        """'prepared', 'running', 'done', 'failed', ...: `status` of run.json; 'unknown' without one."""
+        """'prepared' (also while it runs), 'done', 'failed', ...: `status` of run.json; 'unknown' without one."""
         return self.record.get('status', 'unknown')
 
     @property

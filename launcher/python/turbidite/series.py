@@ -97,9 +97,9 @@ class Trajectories(Series):
 
     def over_time(self, name):
         """(ids (m,), values (n, m, ...)) of one array at all n outputs; nan where a grain is not in the box."""
-        outputs = list(self)
-        ids = np.unique(np.concatenate([output['id'] for output in outputs]))
-        found = np.full((len(outputs), len(ids), *outputs[0][name].shape[1:]), np.nan)
-        for values, output in zip(found, outputs):
-            values[np.searchsorted(ids, output['id'])] = output[name]
+        kept = [(output['id'], output[name]) for output in self]  # of all arrays of an output, two
+        ids = np.unique(np.concatenate([of_output for of_output, _ in kept]))
+        found = np.full((len(kept), len(ids), *kept[0][1].shape[1:]), np.nan)
+        for values, (of_output, given) in zip(found, kept):
+            values[np.searchsorted(ids, of_output)] = given
         return ids, found

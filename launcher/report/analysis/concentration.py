@@ -55,12 +55,11 @@ def volume_below(height, radius, level):
 
 
 def bed(run):
-    """(height [D] below which the layers are denser than half of the densest, concentration there) at the end; None for
-    an empty box."""
+    """(height [D] of the layers that are denser than half of the densest, one on the other; concentration there) at the
+    end; None for an empty box. The bed need not stand on the floor of the box."""
     found = concentration(run)
     if found is None or not found.shares[-1].any():
         return None
     last = found.shares[-1]
-    filled = np.flatnonzero(last >= 0.5 * last.max())
-    top = int(filled[-1]) + 1
-    return float(found.edges[top]), float(last[:top].mean())
+    filled = last >= 0.5 * last.max()
+    return float(np.diff(found.edges)[filled].sum()), float(last[filled].mean())

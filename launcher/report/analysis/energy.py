@@ -46,13 +46,15 @@ class Budget:
 @once_per_run
 def budget(run):
     """None for runs of versions that do not write the works, where grains that leave at the bottom come in at the top,
-    which changes their potential energy, and where grains are driven, on which nobody adds up the work."""
+    which changes their potential energy, where one leaves before the second row, and where grains are driven, on which nobody adds up the work."""
     time, contacts = run.column('contact_work')
     potential = run.column('potential_energy')[1]
     if not len(contacts) or len(potential) != len(contacts) + 1 or run.has_cyclic_floor() or drives_grains(run):
         return None
     whole = run.history['grains'] == run.history['grains'][0]
     rows = len(whole) if whole.all() else int(np.argmin(whole))
+    if rows < 2:
+        return None
     work = lambda name: np.append(0.0, np.nancumsum(run.history[name][1:rows]))
     change = lambda name: changes(run.history[name][:rows])
     step = float(run.case.get('time.step', 0.0)) * run.scale('t_c')

@@ -3,7 +3,7 @@
 import functools
 
 # What reading and measuring damaged or unusual files can raise. The report shows the rest, and says what is missing.
-UNREADABLE = (ValueError, KeyError, OSError, AttributeError, SyntaxError, IndexError)
+UNREADABLE = (ValueError, KeyError, OSError, AttributeError, SyntaxError, IndexError, RuntimeError)
 
 
 def or_remark(run, what, measure):

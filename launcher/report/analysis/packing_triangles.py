@@ -39,7 +39,10 @@ def triangles(snapshot, limit=LARGEST_CIRCUMRADIUS):
     points = snapshot.centres
     if len(points) < 3 or np.ptp(points, axis=0).min() < 1e-9:
         return None
-    corners = matplotlib.tri.Triangulation(*points.T).triangles
+    try:
+        corners = matplotlib.tri.Triangulation(*points.T).triangles
+    except RuntimeError:  # an oblique line
+        return None
     places = points[corners]  # (n, 3, 2)
     sides = np.roll(places, -1, axis=1) - places
     lengths = np.hypot(sides[..., 0], sides[..., 1])

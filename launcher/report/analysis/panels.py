@@ -15,8 +15,8 @@ from curves import MARKERS, TIME_LABEL, panel
 SURFACES = 5
 PRESSURE_FIELDS = 3
 PROFILES = 3
-CARRIED = (('floor', 'contacts, floor'), ('sides', 'contacts, side walls'), ('prescribed', 'prescribed grains'),
-           ('fluid', 'liquid'))
+CARRIED = (('floor', 'contacts, floor'), ('sides', 'contacts, side walls'), ('inner', 'contacts, walls inside'),
+           ('prescribed', 'prescribed grains'), ('fluid', 'liquid'))
 
 
 def add_all(page, run):

@@ -73,18 +73,20 @@ def direction(velocities):
 def moments(run):
     """Of the snapshots until the grains rest: what creeps in a heap at rest has a direction too, but is no phase."""
     there = snapshots.snapshots(run)
-    first = there[0]
-    low, high = np.quantile(first.centres[:, 1], [0.25, 0.75])
-    tops, bottoms = first.ids[first.centres[:, 1] >= high], first.ids[first.centres[:, 1] <= low]
+    free = there[0].free()
+    ids, heights = there[0].ids[free], there[0].centres[free, 1]
+    low, high = np.quantile(heights, [0.25, 0.75])
+    tops, bottoms = ids[heights >= high], ids[heights <= low]
     return [moment(one, tops, bottoms) for one in there
             if one.velocities.any() and not findings.is_at_rest(run, one.time)]
 
 
 def moment(snapshot, tops, bottoms):
-    speeds = np.hypot(*snapshot.velocities.T)
+    velocities = snapshot.velocities[snapshot.free()]
+    speeds = np.hypot(*velocities.T)
     fast = speeds >= shear_band.SLOW * np.quantile(speeds, shear_band.FAST_QUANTILE)
     of = lambda ids: snapshot.velocities[np.isin(snapshot.ids, ids)]
-    return Moment(snapshot.time, direction(of(tops)), direction(of(bottoms)), direction(snapshot.velocities[fast]),
+    return Moment(snapshot.time, direction(of(tops)), direction(of(bottoms)), direction(velocities[fast]),
                   float(1.0 - fast.mean()))
 
 

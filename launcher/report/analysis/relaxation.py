@@ -12,7 +12,7 @@ import numpy as np
 from analysis import peaks
 from analysis.once import once_per_run
 
-FIT = 1.0                     # t_c, length of the fitted phase, or two rows of the history if these are longer
+FIT = 1.0                     # t_c, length of the fitted phase, or up to the third row of the history if that is later
 OTHER_FITS = (0.5, 1.5, 2.0)  # t_c, to see how much it depends on that
 LEAST_PEAK = 0.1              # u_c: below, nothing has slid
 STEEPER = 1.0 + 1e-9          # a slope that rounding alone makes larger is the same
@@ -49,25 +49,25 @@ def relaxation(run):
         return None
     highest = int(velocity.argmax())
     rising = time[:highest + 1], velocity[:highest + 1]
-    shortest = 2.0 * float(time[1] - time[0])
-    found = steepest(*rising, max(FIT, shortest))
+    found = steepest(*rising, FIT)
     if found is None:
         return None
-    others = [steepest(*rising, max(length, shortest), near=found) for length in OTHER_FITS]
+    others = [steepest(*rising, length, near=found) for length in OTHER_FITS]
     times = [fit.time for fit in (found, *others) if fit is not None]
     found.lowest, found.highest = min(times), max(times)
-    # The last row may come sooner than the others: less than a row behind the fit, nothing can be fitted.
-    found.bound = found.end > time[-1] - (1.0 - 1e-9) * float(time[1] - time[0])
+    # The last row may come sooner than those before it: less than a row behind the fit, nothing can be fitted.
+    found.bound = found.end > time[-1] - (1.0 - 1e-9) * float(np.diff(time[-3:]).max())
     return None if found.bound and found.time <= 0.0 else found  # later than the start tells nothing
 
 
 def steepest(time, velocity, length, near=None):
-    """The steepest least-squares line over the rows of this length, of those that overlap the fit `near`; None if they
-    are too few."""
+    """The steepest least-squares line over the rows of this length, three at least, of those that overlap the fit `near`;
+    None if they are too few."""
     best = None
-    for first in range(len(time)):
-        part = slice(first, int(np.searchsorted(time, time[first] + length * (1.0 + 1e-9), side='right')))
-        if time[-1] < time[first] + length * (1.0 - 1e-9) or len(time[part]) < 3:
+    for first in range(len(time) - 2):
+        end = max(time[first] + length, time[first + 2])  # rows need not be equally far apart
+        part = slice(first, int(np.searchsorted(time, end + 1e-9 * length, side='right')))
+        if time[-1] < end - 1e-9 * length:
             continue
         if near is not None and (time[part][-1] <= near.begin or time[first] >= near.end):
             continue

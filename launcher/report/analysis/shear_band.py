@@ -76,8 +76,8 @@ def band_of(snapshot, grid):
 
 
 def quiescent_share(snapshot):
-    """Share of the grains that are slower than a tenth of the speed which a tenth of them exceed."""
-    speeds = np.hypot(*snapshot.velocities.T)
+    """Share of the free grains that are slower than a tenth of the speed which a tenth of them exceed."""
+    speeds = np.hypot(*snapshot.velocities[snapshot.free()].T)
     return float((speeds < SLOW * np.quantile(speeds, FAST_QUANTILE)).mean())
 
 

@@ -83,11 +83,13 @@ def held(contacts, prescribed):
     return (contacts.first < 0) | np.isin(contacts.first, prescribed), np.isin(contacts.second, prescribed)
 
 
-def supports(contacts, prescribed):
-    """Vertical forces on the free grains by the bottom wall, by other walls, and by grains with these ids."""
+def supports(contacts, prescribed, sides):
+    """Vertical forces on the free grains by the bottom wall, by other `sides` of the box, by walls inside it, and by
+    grains with these ids. Walls have the numbers below 0, first those of the sides."""
     force, (held_a, held_b) = contacts.force[:, 1], held(contacts, prescribed)
-    floor, wall = contacts.first == FLOOR, contacts.first < 0
-    return (force[floor & ~held_b].sum(), force[wall & ~floor & ~held_b].sum(),
+    wall, inside = contacts.first < 0, contacts.first < -sides
+    floor = contacts.first == FLOOR
+    return (force[floor & ~held_b].sum(), force[wall & ~floor & ~inside & ~held_b].sum(), force[inside & ~held_b].sum(),
             force[held_a & ~wall & ~held_b].sum() - force[~held_a & held_b].sum())
 
 
@@ -97,12 +99,13 @@ class Carriers:
 
     time: np.ndarray
     floor: np.ndarray
-    sides: np.ndarray
+    sides: np.ndarray       # of the box
+    inner: np.ndarray       # walls inside the box
     prescribed: np.ndarray  # grains with a prescribed motion
     fluid: np.ndarray
 
     def contacts(self):
-        return self.floor + self.sides + self.prescribed
+        return self.floor + self.sides + self.inner + self.prescribed
 
     def rest(self):
         """What is carried by nothing: it accelerates the grains downwards."""
@@ -117,7 +120,7 @@ def carriers(run):
         _, weights, lift = on_free(run, one)
         if one.contacts is None or not weights.sum() > 0.0:
             continue
-        forces = np.array([*supports(one.contacts, one.prescribed_ids()), lift.sum()])
+        forces = np.array([*supports(one.contacts, one.prescribed_ids(), 6 if run.in_space() else 4), lift.sum()])
         rows.append((one.time, *forces / weights.sum()))
     return Carriers(*np.array(rows).T) if rows else None
 

@@ -2,6 +2,10 @@
 """What was played: the case and the programs, with units."""
 import numpy as np
 
+import grain_files
+import solid
+from analysis.once import or_remark
+
 SIDES = {False: ('left', 'right', 'bottom', 'top'), True: ('left', 'right', 'bottom', 'top', 'front', 'back')}
 
 
@@ -30,8 +34,7 @@ def facts(run):
         *([('command', run.command())] if run.command() else []),
         ('domain', f'{case.get("domain.size", "unknown")} D; ' + ', '.join(
             f'{side} {case[f"domain.{side}"]}' for side in SIDES[run.in_space()] if f'domain.{side}' in case)),
-        ('grains', f'{record.get("grains", "?")} {case.get("grains.shape")}s, density ratio '
-                   f'{case.get("grains.density_ratio")}, friction {case.get("contact.friction")}, '
+        ('grains', f'{record.get("grains", "?")} {case.get("grains.shape")}s, {density_of(run)}, {friction_of(case)}, '
                    f'by {case.get("grains.adapter")}'),
         ('fluid', f'Re = {record.get("reynolds", 0):.4g}, {case.get("fluid.cells_per_diameter")} '
                   f'cells per D{by_box(record)}' if run.is_wet() else 'none'),
@@ -45,6 +48,21 @@ def facts(run):
     programs = [f'{r.get("role")} {r.get("rank")}: {r.get("adapter")} ({r.get("host_code")}) on '
                 f'{r.get("host")}' for r in record.get('ranks', [])]
     return rows + [('programs', '; '.join(programs))] if programs else rows
+
+
+def density_of(run):
+    """Over the fluid's: of the case, or the range of those in the first output, where grains may have their own."""
+    first = grain_files.quiet_series(run)[:1]
+    found = or_remark(run, 'Density', lambda: solid.densities(run, grain_files.read_grains(*first[0]))) if first else None
+    if found is None or not len(found) or np.ptp(found) < 1e-6 * found.max():
+        return f'density ratio {run.case.get("grains.density_ratio")}'
+    return f'density ratios {found.min():.4g} to {found.max():.4g}'
+
+
+def friction_of(case):
+    """Of contacts of no named material, and which materials there are."""
+    names = list(dict.fromkeys(key.split('.')[2] for key in case if key.startswith('contact.materials.')))
+    return f'friction {case.get("contact.friction")}' + (f' (others: {", ".join(names)})' if names else '')
 
 
 def date_of(record):

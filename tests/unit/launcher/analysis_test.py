@@ -59,6 +59,7 @@ class Triangles(unittest.TestCase):
     def test_lines_and_pairs_have_none(self):
         self.assertIsNone(packing_triangles.triangles(snapshot([[0, 0], [1, 0], [2, 0]])))
         self.assertIsNone(packing_triangles.triangles(snapshot([[0, 0], [1, 1]])))
+        self.assertIsNone(packing_triangles.triangles(snapshot([[1, 5], [2, 6], [3, 7]])))
 
     def test_a_linear_field_has_its_gradient_everywhere(self):
         # u = (0.3 y, -0.1 x + 0.2 y): growth 0.2, shear hypot(-0.2, 0.2).
@@ -134,6 +135,28 @@ class WrittenDeposits(RunFolderTest):
             self.write('case.yaml', (self.folder / 'case.yaml').read_text().replace(
                 'dimension: 2', 'dimension: 3').replace('[8, 6]', f'[8, 6, {depth}]'))
         return deposit.deposit(run_data.load_run(self.folder))
+
+    def on_held(self, floor, *columns):
+        """The same with so many columns of held discs below."""
+        found = self.heap(*[[count + (i < floor) for i, count in enumerate(one + [0] * (8 - len(one)))] for one in columns])
+        for path in sorted((self.folder / 'grains').glob('*.vtp')):
+            text = path.read_text()
+            places = text.split('format="ascii">')[1].split('<')[0].split()
+            held = ' '.join('1' if y == '0.5' and float(x) < floor else '0' for x, y in zip(places[::3], places[1::3]))
+            path.write_text(text.replace('</PointData>', '<DataArray type="Int64" Name="prescribed" format="ascii">'
+                                         f'{held}</DataArray></PointData>'))
+        del found
+        return run_data.load_run(self.folder)
+
+    def test_held_grains_are_ground_and_no_heap(self):
+        free = self.heap([3, 3], [3, 2, 1])
+        for floor in (0, 6, 8):
+            data = self.on_held(floor, [3, 3], [3, 2, 1])
+            self.assertTrue(data.is_avalanche(), floor)
+            found = deposit.deposit(data)
+            self.assertEqual((found.run_out, found.first_foot, found.foot), (free.run_out, 2.0, 3.0), floor)
+        self.assertFalse(self.on_held(8, [0], [0]).is_avalanche())  # all are held
+        self.assertFalse(self.on_held(8, [1], [0, 1]).is_avalanche())  # one that falls
 
     def test_a_sliver_in_the_next_column_is_no_column(self):
         found = self.heap([3, 3], [3, 2, 1], by=1e-4)
@@ -566,6 +589,17 @@ class Weights(unittest.TestCase):
         self.assertAlmostEqual(float(found.sides[0]), 1 / 3)
         self.assertAlmostEqual(float(found.rest()[0]), 0.0)
 
+    def test_walls_inside_the_box_are_no_side_walls(self):
+        weight = DISC / 3.0
+        for dimension, walls in (('2', (-5, -1)), ('3', (-7, -6))):
+            contacts = snapshots.Contacts(np.array(walls), np.array([0, 0]), np.array(2 * [[[1, 0], [1, 0.5]]]),
+                                          np.array([[0, 0.75 * weight], [0, 0.25 * weight]]))
+            data = with_snapshots(run({'dimension': dimension}), snapshot([[1, 0.5]], contacts=contacts))
+            found = weight_balance.carriers(data)
+            self.assertAlmostEqual(float(found.inner[0]), 0.75)
+            self.assertAlmostEqual(float(found.sides[0]), 0.25)
+            self.assertAlmostEqual(float(found.rest()[0]), 0.0)
+
     def on_fixed(self, contact):
         """The tower without its lowest disc, on a fixed one that stands on the floor, beside another fixed one."""
         weight = DISC / 3.0
@@ -663,6 +697,13 @@ class Energies(unittest.TestCase):
         grains[12:] = 6
         self.assertEqual(len(energy.budget(self.fall(grains=grains)).time), 12)
 
+    def test_none_before_the_second_row(self):
+        grains = np.full(21, 7.0)
+        grains[1:] = 6
+        data = self.fall(grains=grains)
+        self.assertIsNone(energy.budget(data))
+        self.assertIsNone(energy.largest_defect(data))
+
     def test_a_cyclic_bottom_has_none(self):
         data = self.fall()
         data.case['domain.bottom'] = 'cyclic'
@@ -753,6 +794,10 @@ class Concentrations(unittest.TestCase):
         found = concentration.concentration(data)
         np.testing.assert_allclose(found.shares, [[2 * DISC / 4, 0, 0]], atol=1e-15)
         self.assertEqual(concentration.bed(data), (1.0, found.shares[0, 0]))
+
+    def test_a_bed_need_not_stand_on_the_floor(self):
+        on_plate = snapshot([[0.5 + i, 2.5 + j] for i in range(4) for j in range(2)])
+        self.assertEqual(concentration.bed(with_snapshots(run({'domain.size': '[4, 6]'}), on_plate)), (2.0, DISC))
 
     def test_an_empty_box_has_no_bed(self):
         data = with_snapshots(run({'domain.size': '[4, 3]', 'scales.kind': 'physical'}), snapshot([[1, 0.5]]),

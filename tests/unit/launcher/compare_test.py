@@ -45,10 +45,17 @@ class Differences(unittest.TestCase):
         fine, coarse = np.arange(9) / 4.0, np.arange(5) / 2.0
         apart = difference((coarse, coarse**2), (fine, fine**2))
         self.assertEqual((apart.rms, apart.largest, apart.mean), (0.0, 0.0, 0.0))
-        # Rows that do not coincide are interpolated: 1/3 lies between 0 and 0.5.
+        # Rows that do not coincide: the finer one is interpolated. 0.5 lies between 1/3 and 2/3.
         thirds = np.arange(7) / 3.0
-        apart = difference((coarse, coarse**2), (thirds, thirds**2))
-        self.assertAlmostEqual(apart.largest, 1.0 / 3.0 * (0.5 - 1.0 / 3.0))
+        for first, second in ((coarse, thirds), (thirds, coarse)):
+            apart = difference((first, first**2), (second, second**2))
+            self.assertAlmostEqual(apart.largest, (0.5 - 1.0 / 3.0) * (2.0 / 3.0 - 0.5))
+
+    def test_two_curves_that_share_one_row_are_compared_between_it_and_the_end(self):
+        early, late = (np.array([0.0, 2.0]), np.array([0.0, 2.0])), (np.array([1.0, 5.0]), np.array([1.5, 5.5]))
+        apart = difference(early, late)
+        self.assertEqual((apart.begin, apart.end), (1.0, 2.0))
+        self.assertAlmostEqual(apart.mean, 0.5)
 
     def test_of_a_curve_from_itself_is_zero(self):
         curve = np.array([0.0, 1.0, 2.5]), np.array([1.0, -3.0, 2.0])
@@ -274,11 +281,21 @@ class Compare(RunFolderTest):
             self.assertEqual(texts, ['…' + 'a' * 22 + str(i) for i in range(shown)])
             plt.close(figure)
 
+    def test_a_run_that_is_not_done_does_not_cut_its_group(self):
+        for seed in (1, 2, 3):
+            self.write_seed(f'dense-seed{seed}', seed, float(seed))
+        self.write('dense-seed3/run.json', json.dumps({'status': 'failed'}))
+        self.write('dense-seed3/history.csv', 'step,time,mean_velocity_norm\n0,0,0\n1,0.1,0.5\n')
+        self.assertEqual(self.run_it('dense-seed1', 'dense-seed2', 'dense-seed3'), (0, ''))
+        runs = self.result()['runs']
+        self.assertEqual([(run['name'], len(run['seeds'])) for run in runs], [('dense', 2), ('dense-seed3', 1)])
+        self.assertEqual(runs[0]['peak']['mean'], {'value': 1.5, 'time': 2.0})
+
     def test_the_worst_run_of_a_group_is_not_averaged_away(self):
-        """One of them was killed: its largest values are in its rows alone."""
+        """The largest values of one are in its rows alone."""
         for seed in (1, 2):
             self.write_seed(f'dense-seed{seed}', seed, 1.0)
-        self.write('dense-seed2/run.json', json.dumps({'status': 'interrupted'}))
+        self.write('dense-seed2/run.json', json.dumps({'status': 'done'}))
         self.write('dense-seed2/history.csv', 'step,time,mean_velocity_norm,max_penetration,unconverged\n'
                    '0,0,0,,\n10,1,0.5,0.02,7\n20,2,1,0.01,0\n')
         self.assertEqual(self.run_it('dense-seed1', 'dense-seed2'), (0, ''))

@@ -410,6 +410,19 @@ class Report(RunFolderTest):
         self.assertIsNone(relaxation.relaxation_time(uneven))
         self.assertIsNotNone(relaxation.relaxation_bound(uneven))
 
+    def test_rows_need_not_be_equally_far_apart(self):
+        """As after `resume --set output.interval`, or an output on request."""
+        self.write_all()
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche'))
+        fine, coarse = np.arange(0.0, 2.0, 0.1), np.arange(0.0, 13.0)
+        for times in (coarse, np.append(fine, np.arange(2.0, 13.0)), np.insert(coarse, 1, 0.3)):
+            velocity = 0.1 * np.clip(times - 6.0, 0.0, 4.0)
+            self.write('history.csv', 'step,time,mean_velocity_norm\n'
+                       + ''.join(f'{n},{t},{u}\n' for n, (t, u) in enumerate(zip(times, velocity))))
+            found = relaxation.relaxation(run_data.load_run(self.folder))
+            self.assertAlmostEqual(found.time, 6.0, places=6)
+            self.assertFalse(found.bound)
+
     def test_rows_need_not_divide_the_length_of_the_fit(self):
         time = 0.26 * np.arange(60)
         found = relaxation.steepest(time, 0.1 * np.maximum(time - 3.0, 0.0), 1.0)
