@@ -21,10 +21,18 @@ constexpr double probes_per_contact = 4.0;
 // grain has moved half of it.
 constexpr double neighbour_margin = 0.2;
 
+// A grain leaves a window after it has passed a free side by its radius. LAMMPS' box reaches beyond
+// by so many of the largest radii, one of them for the way of the window.
+constexpr double beyond_free_sides = 2.0;
+
 double smallest_of_all(double mine, MPI_Comm communicator) {
     double all = mine;
     MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MIN, communicator);
     return all;
+}
+
+double largest_of_all(double mine, MPI_Comm communicator) {
+    return -smallest_of_all(-mine, communicator);
 }
 
 bool any_of_all(bool mine, MPI_Comm communicator) {
@@ -59,10 +67,13 @@ void LammpsMdHost::create(const Settings& settings, const ShapeTable&, const nsc
     classes_.emplace(bodies.mass, ranks_.communicator);
     walls_ = wall_fixes(*classes_, borders_);
     // A rank without grains must not decide: the size of the domain is larger than any radius.
-    double radius = size_[0];
-    for (const double r : bodies.radius) radius = std::min(radius, r);
+    double radius = size_[0], largest = 0.0;
+    for (const double r : bodies.radius)
+        radius = std::min(radius, r), largest = std::max(largest, r);
     skin_ = neighbour_margin * smallest_of_all(radius, ranks_.communicator);
-    declare_box(*lammps_, run.dimension, size_, period, classes_->masses().size());
+    declare_box(*lammps_, run.dimension, size_, period, borders_,
+                beyond_free_sides * largest_of_all(largest, ranks_.communicator),
+                classes_->masses().size());
     declare_properties(*lammps_, run.dimension);
     grains_->create(bodies, *classes_, ranks_.communicator);
     start_engines();
@@ -100,7 +111,8 @@ void LammpsMdHost::load_grains(const std::vector<Load>& loads) {
 
 SubstepReport LammpsMdHost::run(const Substeps& substeps, const std::vector<Load>& loads) {
     load_grains(loads);
-    present_ = {lammps_->step(), lammps_->step() + substeps.count, substeps.step};
+    present_ = {lammps_->step(), lammps_->step() + substeps.count, substeps.step,
+                substeps.detailed};
     lammps_->command(fmt::format("timestep {:.17g}", substeps.step));
     lammps_->command(fmt::format("run {} post no", substeps.count));
     follow_grains();
@@ -109,8 +121,7 @@ SubstepReport LammpsMdHost::run(const Substeps& substeps, const std::vector<Load
     report.max_penetration = present_.deepest;
     if (!substeps.detailed) return report;
     collect_impulses(report);
-    report.touching = touching(*lammps_, *grains_, walls_, size_, law_->friction,
-                               substeps.step * static_cast<double>(substeps.count));
+    report.touching = std::move(present_.touching);
     return report;
 }
 
@@ -144,6 +155,16 @@ void LammpsMdHost::act(std::int64_t substep) {
     // moved.
     add_loads((begins || ends ? 0.5 : 1.0) * present_.step, begins);
     if (ends || (!begins && (substep - present_.first) % stride_ == 0)) probe();
+    if (ends && present_.detailed) list_contacts();
+}
+
+/// Here, since LAMMPS computes the forces between grains again for the list: the velocities of
+/// grains and of their copies are those of which it has made the forces, in the middle of the
+/// sub-step. After it grains have new velocities, and copies on other ranks and beyond cyclic sides
+/// do not.
+void LammpsMdHost::list_contacts() {
+    const auto window = static_cast<double>(present_.last - present_.first) * present_.step;
+    present_.touching = touching(*lammps_, *grains_, walls_, size_, law_->friction, window);
 }
 
 void LammpsMdHost::add_loads(double time, bool begins) {

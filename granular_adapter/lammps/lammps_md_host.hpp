@@ -58,8 +58,10 @@ class LammpsMdHost final : public MdHost {
     struct Present {
         std::int64_t first = 0, last = 0;
         double step = 0.0;  ///< delta [s]
+        bool detailed = false;
         double deepest = 0.0;
         std::int64_t contacts = 0;  ///< at the last probe
+        std::vector<ContactRecord> touching{};
     };
 
     void start_engines();
@@ -69,6 +71,7 @@ class LammpsMdHost final : public MdHost {
     void act(std::int64_t substep);
     void add_loads(double weight_of_forces, bool begins);
     void probe();
+    void list_contacts();
     void follow_grains();
     void find_neighbours();
     void collect_impulses(SubstepReport& report) const;

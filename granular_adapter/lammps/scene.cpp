@@ -77,7 +77,7 @@ void declare_walls(Library& lammps, const SoftLaw& law, const std::vector<double
 }  // namespace
 
 void declare_box(Library& lammps, int dimension, const Vec3& size, const nscd::PeriodicBox& period,
-                 std::size_t types) {
+                 const std::vector<Border>& borders, double margin, std::size_t types) {
     const bool in_space = dimension == 3;
     // Boundaries `m` follow grains outwards, `p` repeat; the plane has to repeat along z.
     const auto boundary = [&](int axis) {
@@ -86,9 +86,15 @@ void declare_box(Library& lammps, int dimension, const Vec3& size, const nscd::P
     run_all(lammps, {"units si", fmt::format("dimension {}", dimension),
                      fmt::format("boundary {} {} {}", boundary(0), boundary(1), boundary(2)),
                      "atom_style sphere", strips_along_x});
+    const auto beyond = [&](std::size_t side) {
+        return borders[side].side == BorderKind::free ? margin : 0.0;
+    };
+    const auto ends = [&](std::size_t axis) {
+        return fmt::format("{:.17g} {:.17g}", -beyond(2 * axis), size[axis] + beyond(2 * axis + 1));
+    };
     const double thick = 0.01 * std::max(size[0], size[1]);
-    lammps.command(fmt::format("region domain block 0 {:.17g} 0 {:.17g} {:.17g} {:.17g}", size[0],
-                               size[1], in_space ? 0.0 : -thick, in_space ? size[2] : thick));
+    const std::string depth = in_space ? ends(2) : fmt::format("{:.17g} {:.17g}", -thick, thick);
+    lammps.command(fmt::format("region domain block {} {} {}", ends(0), ends(1), depth));
     lammps.command(fmt::format("create_box {} domain", types));
 }
 

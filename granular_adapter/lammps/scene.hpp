@@ -23,9 +23,11 @@ extern const char* const loads_fix;
 inline constexpr const char* strips_along_x = "processors * 1 1";
 
 /// The box of the domain, which along axes that do not repeat grows with the grains that leave it,
-/// divided among the ranks into strips along x.
+/// divided among the ranks into strips along x. Beyond free sides it reaches by `margin` [m] from
+/// the start: its growth is found when LAMMPS looks for neighbours, and a restart file that is read
+/// loses the grains outside.
 void declare_box(Library& lammps, int dimension, const Vec3& size, const nscd::PeriodicBox& period,
-                 std::size_t types);
+                 const std::vector<Border>& borders, double margin, std::size_t types);
 
 /// What grains carry from rank to rank (round_grains.hpp).
 void declare_properties(Library& lammps, int dimension);

@@ -30,7 +30,7 @@ class Scene:
         self.body_of = {}   # grain id -> body id
         self.materials = set()  # labels
         self.walls = {}     # body id -> side: 0 left, 1 right, 2 bottom, 3 top, 4 front, 5 back
-        self.largest = 0.0  # radius
+        self.radii = (0.0, 0.0)  # smallest and largest
         self.script = users_script.NoScript()
 
     def create(self, settings, grains):
@@ -41,7 +41,8 @@ class Scene:
         self.damping = float(settings['run.md_damping'])
         self.friction_angle = math.atan(float(settings['contact.friction']))
         self.walls = domain_sides.create_walls(settings, self._material(0.0))
-        self.largest = max((grain['radius'] for grain in grains), default=0.0)
+        radii = [grain['radius'] for grain in grains] or [0.0]
+        self.radii = min(radii), max(radii)
         self.body_of = {grain['id']: self._create_round(grain) for grain in grains}
         O.dt = float(settings['run.step']) / int(settings['run.md_substeps'])
         O.engines = self._engines(float(settings['run.gravity']))
@@ -138,9 +139,15 @@ class Scene:
         return (wall, 0 if wall >= 0 else grain_of[first], grain_of[second], bool(slides), geom.penetrationDepth,
                 *geom.contactPoint, *normal, *force, *branch)
 
-    def deepest_overlap(self):
-        """Largest overlap of two grains in the last step [m]; an upper bound if sizes differ."""
-        return max(0.0, utils.maxOverlapRatio() * self.largest)
+    def deepest_overlap(self, known):
+        """Largest overlap of two grains in the last step [m], or less than what is `known` of the window."""
+        smallest, largest = self.radii
+        # YADE's ratio is that of the overlap to 2 R1 R2/(R1 + R2), which is at most the largest radius.
+        bound = max(0.0, utils.maxOverlapRatio() * largest)
+        if smallest == largest or bound <= known:
+            return bound
+        return max((contact.geom.penetrationDepth for contact in O.interactions
+                    if contact.isReal and contact.id1 not in self.walls and contact.id2 not in self.walls), default=0.0)
 
     def save(self):
         """The whole simulation as bytes, contacts with their springs included."""

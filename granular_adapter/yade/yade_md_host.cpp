@@ -87,8 +87,9 @@ void YadeMdHost::add_forces(SubstepReport& report, double step) const {
     }
 }
 
-double YadeMdHost::deepest_overlap() const {
-    double deepest = python::extract<double>(scene_.attr("deepest_overlap")());
+double YadeMdHost::deepest_overlap(double known) const {
+    double deepest = python::extract<double>(scene_.attr("deepest_overlap")(known));
+    if (deepest <= known) deepest = 0.0;  // it may be a bound then
     for (std::size_t i = 0; i < ids_.size(); ++i) {
         const Vec3 place = exchange_.position(i);
         for (const Border& border : borders_)
@@ -113,7 +114,8 @@ SubstepReport YadeMdHost::run(const Substeps& substeps, const std::vector<Load>&
         if (substeps.detailed) add_forces(report, substeps.step);
         // Looking at all overlaps takes time: some times per contact time, and at the end.
         if (i % stride_ == 0 || i == substeps.count)
-            report.max_penetration = std::max(report.max_penetration, deepest_overlap());
+            report.max_penetration =
+                std::max(report.max_penetration, deepest_overlap(report.max_penetration));
     }
     report.contacts = python::extract<long>(scene_.attr("contacts")());
     if (substeps.detailed)

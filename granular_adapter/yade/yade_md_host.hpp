@@ -20,8 +20,8 @@ class YadeMdHost final : public MdHost {
  public:
     /// `scene` has create(settings, grains), which returns body ids; states(bodies); erase(bodies);
     /// complete(), called when all bodies exist; begin_window(), called before the sub-steps of
-    /// each window; step(), one sub-step; contacts(); touching(); deepest_overlap(); save() and
-    /// restore(bytes).
+    /// each window; step(), one sub-step; contacts(); touching(); deepest_overlap(known); save()
+    /// and restore(bytes).
     YadeMdHost(boost::python::object scene, std::string yade_version);
 
     std::string code() const override { return "YADE " + version_; }
@@ -40,7 +40,7 @@ class YadeMdHost final : public MdHost {
     void fetch_bodies(std::size_t grains);
     void set_loads(const std::vector<Load>& loads);
     std::vector<ContactRecord> touching(double window) const;
-    double deepest_overlap() const;
+    double deepest_overlap(double known) const;
     void add_forces(SubstepReport& report, double step) const;
 
     boost::python::object scene_;

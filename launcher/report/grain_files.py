@@ -5,8 +5,6 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-import vtk_series
-
 
 @dataclass
 class Grains:
@@ -70,7 +68,22 @@ def grains_at(run, time):
 def series(run, index):
     """(time, path) of the first part of every output."""
     return [(float(entry.get('timestep')), index.parent / entry.get('file'))
-            for entry in vtk_series.entries(run, index) if entry.get('part', '0') == '0']
+            for entry in series_entries(run, index) if entry.get('part', '0') == '0']
+
+
+def series_entries(run, index):
+    """The entries (`timestep`, `part`, `file`) of the index of a series (.pvd). A kill, a full disk or a run at work may have
+    left it without its end: then those that are whole, and a remark."""
+    found = []
+    try:
+        for _, element in ElementTree.iterparse(index):
+            if element.tag == 'DataSet':
+                found.append(element)
+    except ElementTree.ParseError as error:
+        remark = f'{index.relative_to(run.folder)} is cut off or damaged after {len(found)} whole entries: {error}'
+        if remark not in run.remarks:
+            run.remarks.append(remark)
+    return found
 
 
 def read_grains(time, path):

@@ -12,7 +12,8 @@ from pathlib import Path
 
 # Pages with measurements; sections of the others define, explain or list.
 PAGES = ("validation", "splittings", "paper", "waiting-times", "beyond-paper", "dry-avalanche", "performance", "md",
-         "contact-solvers", "fft-solver", "schemes", "spheres-in-liquid")
+         "contact-solvers", "fft-solver", "schemes", "spheres-in-liquid", "spheres", "box-program", "bulk-cases",
+         "function-objects", "cluster")
 CELL_NUMBER = re.compile(r"\d\.\d|\de-?\d|^[-+−–(]?\d")
 PROSE_NUMBER = re.compile(r"\d\.\d+|\d+e-\d+|\d(?:\.\d+)? (?:%|ms|s|t_c|u_c|D|times)\b")
 COMMAND = re.compile(r"\./turbidite \S+|bench/[\w./-]+|turbidite-bench[\w-]*|--figure|\w+_test\b|[Pp]arts?\s+`|"

@@ -119,7 +119,7 @@ TEST_F(StudyRuns, GoesOnWhereARunCannotBePlayed) {
     const Answer answer = study("");
     EXPECT_EQ(answer.code, 2);
     EXPECT_SAYS(answer.err, "frictions/friction-0: it cannot be played: ");
-    EXPECT_SAYS(answer.err, "notes.txt");
+    EXPECT_SAYS(answer.err, "is not empty, and no run is in it");
     EXPECT_SAYS(answer.out, "2 of 3 runs done");
     EXPECT_EQ(column("status"), (std::vector<std::string>{"missing", "done", "done"}));
     EXPECT_EQ(text(notes), "the user's");

@@ -75,8 +75,8 @@ class SharedLayers {
         for (std::size_t n = 0; n < shares.size(); ++n) {
             const std::size_t share = (static_cast<std::size_t>(thread) + n) % shares.size();
             std::atomic<std::size_t>& taken = taken_[layer][share].stretches;
-            for (std::size_t at = 0; (at = taken.fetch_add(1, std::memory_order_relaxed)) <
-                                     shares[share].size();)
+            for (std::size_t at = 0;
+                 (at = taken.fetch_add(1, std::memory_order_relaxed)) < shares[share].size();)
                 visit(shares[share][at]);
         }
     }

@@ -92,9 +92,8 @@ class SweepPipeline {
             for (std::size_t sweep = 0; sweep < sweeps; ++sweep)
                 for (std::size_t layer = 0; layer < layers_->layers.size(); ++layer) {
                     if (thread == 0) shared[(sweep + 1) % 2].refill(layer);
-                    shared[sweep % 2].each(layer, thread, [&](std::size_t at) {
-                        visit_with_bodies(at, sweep);
-                    });
+                    shared[sweep % 2].each(layer, thread,
+                                           [&](std::size_t at) { visit_with_bodies(at, sweep); });
                     meeting.wait();
                 }
         });

@@ -70,8 +70,8 @@ Ruling front_is_not_cyclic(const Settings& s) {
 Ruling shape_is_known(const Settings& s) {
     if (has(grains_adapter(s).shapes, s.text("grains.shape"))) return std::nullopt;
     return unknown_to(
-        s, "supports discs only", [](const GrainsAdapter& a) { return has(a.shapes, "polygon"); },
-        "Use disc");
+        s, "supports discs and, in space, spheres",
+        [](const GrainsAdapter& a) { return has(a.shapes, "polygon"); }, "Use disc");
 }
 
 Ruling law_is_known(const Settings& s) {

@@ -207,8 +207,8 @@ KeyGroup grains_keys() {
                  .type = KeyType::real,
                  .fallback = "1",
                  .range = {.lower = 1.0, .upper = 100.0},
-                 .help = "largest radius over the smallest (generator random): radii lie between 2 "
-                         "R/(1 + q) "
+                 .help = "largest radius over the smallest (generators random and poured): radii "
+                         "lie between 2 R/(1 + q) "
                          "and 2 R q/(1 + q), uniform by number, so that grains.radius R stays "
                          "the mean",
                  .idle = without_random},
@@ -218,8 +218,11 @@ KeyGroup grains_keys() {
                  .range = positive,
                  .help = "density of the grains over that of the fluid",
                  .allowed =
-                     "A ratio above 0; in a fluid above 1 unless coupling.scheme is joint, and "
-                     "with fluid.splitting: marchuk-yanenko at least 0.5, for a single grain 0.25.",
+                     "A ratio above 0. In a fluid without coupling.scheme: joint above 1, in space "
+                     "above (R_h/R)^5, 1.44 at D/8; with joint in space above 15/c^2, c cells "
+                     "across; with fluid.splitting: marchuk-yanenko at least 0.5 V(R_h)/V(R), for "
+                     "a "
+                     "single grain 0.25.",
                  .remedy = "Use for example 1.5."},
                 {.name = "grains.generator",
                  .type = KeyType::choice,
@@ -277,7 +280,7 @@ KeyGroup grains_keys() {
                  .range = {.lower = 1.0},
                  .help = "number of grains (generators random and poured)",
                  .remedy = "Write for example count: 60.",
-                 .when = "grains.generator: random without grains.file",
+                 .when = "grains.generator: random or poured, without grains.file",
                  .required = needs_count,
                  .idle = without_random},
                 of_space({.name = "grains.pour_friction",

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-import vtk_series
+import grain_files
 
 
 def entries(run, index):
@@ -12,7 +12,7 @@ def entries(run, index):
     if not index.exists():
         return []
     found = [(float(entry.get('timestep')), int(entry.get('part')), index.parent / entry.get('file'))
-             for entry in vtk_series.entries(run, index)]
+             for entry in grain_files.series_entries(run, index)]
     return [entry for entry in found if entry[2].exists()]
 
 

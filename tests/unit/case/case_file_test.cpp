@@ -330,7 +330,7 @@ TEST_F(CaseFile, SomeAdaptersRunOnSeveralRanks) {
     EXPECT_EQ(settings.integer("grains.ranks"), 2);
     EXPECT_EQ(settings.text("coupling.scheme"), "split");
     EXPECT_SAYS(refusal("", {"grains.adapter=lammps-md", "grains.shape=triangle"}),
-                "lammps-md supports discs only.");
+                "lammps-md supports discs and, in space, spheres.");
     const std::vector<std::string> soft = {"grains.adapter=standalone-md", "grains.shape=triangle"};
     EXPECT_EQ(load("", soft).shapes[0].kind, "triangle");
     const auto few = load("", {soft[0], soft[1], "contact.md_substeps=12"}).notes;

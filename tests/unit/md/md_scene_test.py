@@ -65,7 +65,7 @@ class MdScene(unittest.TestCase):
         for _ in range(1200):
             self.scene.step()
             touching += self.scene.contacts()
-            deepest = max(deepest, self.scene.deepest_overlap())
+            deepest = max(deepest, self.scene.deepest_overlap(0.0))
         self.assertAlmostEqual(touching * O.dt * FREQUENCY / math.pi, 1.0, delta=0.01)
         self.assertAlmostEqual(deepest * FREQUENCY, 1.0, delta=0.005)
         self.assertAlmostEqual(self.states[0].vel[0], 0.0, delta=1e-3)
@@ -91,6 +91,12 @@ class MdScene(unittest.TestCase):
         self.assertAlmostEqual(between, restitution(zeta), delta=0.004)
         self.assertAlmostEqual(self.states[2].vel[1], restitution(zeta), delta=0.004)
 
+    def test_overlaps_are_those_of_the_pair_whatever_other_sizes_there_are(self):
+        self.build([disc(1, 3.0, 5.0, radius=0.05), disc(2, 3.0999, 5.0, radius=0.05), disc(3, 10.0, 5.0, radius=2.0)])
+        self.scene.step()
+        self.assertAlmostEqual(self.scene.deepest_overlap(0.0), 1e-4, delta=1e-6)
+        self.assertLessEqual(self.scene.deepest_overlap(1.0), 1.0)
+
     def test_a_stack_at_rest_hands_its_weight_to_the_floor(self):
         count, gravity = 5, 1.0
         self.build([disc(i, 5.0, 0.5 + i) for i in range(count)], run_gravity=gravity, run_md_damping=1.0)
@@ -99,7 +105,7 @@ class MdScene(unittest.TestCase):
         floor = next(wall for wall in self.scene.walls if O.bodies[wall].shape.axis == 1)
         self.assertAlmostEqual(O.forces.f(floor)[1], -weight, delta=1e-9 * weight)
         # k = m w^2 at the wall.
-        self.assertAlmostEqual(self.scene.deepest_overlap(), 2 * (count - 1) * gravity / FREQUENCY**2, delta=1e-8)
+        self.assertAlmostEqual(self.scene.deepest_overlap(0.0), 2 * (count - 1) * gravity / FREQUENCY**2, delta=1e-8)
         self.assertEqual(self.scene.contacts(), count)
 
     def test_a_disc_pushed_along_the_floor_slides_until_it_rolls(self):
