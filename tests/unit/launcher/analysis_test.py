@@ -155,6 +155,7 @@ class WrittenDeposits(RunFolderTest):
             self.assertTrue(data.is_avalanche(), floor)
             found = deposit.deposit(data)
             self.assertEqual((found.run_out, found.first_foot, found.foot), (free.run_out, 2.0, 3.0), floor)
+            self.assertTrue(found.fits, floor)
         self.assertFalse(self.on_held(8, [0], [0]).is_avalanche())  # all are held
         self.assertFalse(self.on_held(8, [1], [0, 1]).is_avalanche())  # one that falls
 

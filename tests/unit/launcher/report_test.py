@@ -422,6 +422,7 @@ class Report(RunFolderTest):
             found = relaxation.relaxation(run_data.load_run(self.folder))
             self.assertAlmostEqual(found.time, 6.0, places=6)
             self.assertFalse(found.bound)
+            self.assertGreaterEqual(((times >= found.begin) & (times <= found.end)).sum(), 3)
 
     def test_rows_need_not_divide_the_length_of_the_fit(self):
         time = 0.26 * np.arange(60)
