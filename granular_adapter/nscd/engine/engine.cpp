@@ -283,8 +283,8 @@ SolverResult Engine::solve_from(const Impulses& guess, double dt) {
     SolverSettings settings = settings_.solver_settings;
     if (in_space()) settings.momentum_after = sweeps_before_momentum;
     SolverResult result = solver_->solve(contacts_.problem, guess, settings);
-    if (in_space()) settle(result, dt);
-    while (result.converged && sinking(result, dt) > most_sinking) {
+    double sunk = in_space() ? settle(result, dt) : sinking(result, dt);
+    while (result.converged && sunk > most_sinking) {
         settings.tolerance *= 0.1;
         settings.max_iterations = settings_.solver_settings.max_iterations - result.iterations;
         if (settings.max_iterations < 1 || settings.tolerance < least_tolerance) {
@@ -294,31 +294,35 @@ SolverResult Engine::solve_from(const Impulses& guess, double dt) {
         SolverResult next = solver_->solve(contacts_.problem, result.impulses, settings);
         next.iterations += result.iterations;
         result = std::move(next);
+        sunk = sinking(result, dt);
     }
     return result;
 }
 
-/// Sweeps without momentum until no body sinks in by more than `wanted_sinking`. The error of
-/// single contacts, which others hide from the residual, takes few of them; a smaller tolerance
-/// would ask for many more, of all contacts. What they bring is kept where it is within the
-/// tolerance.
-void Engine::settle(SolverResult& result, double dt) {
+/// Sweeps without momentum until no body sinks in by more than `wanted_sinking`, or they are used
+/// up; returns by how much one does (sinking()). The error of single contacts, which others hide
+/// from the residual, takes few of them; a smaller tolerance would ask for many more, of all
+/// contacts. What they bring is kept where it is within the tolerance.
+double Engine::settle(SolverResult& result, double dt) {
     const SolverSettings& asked = settings_.solver_settings;
     SolverSettings plain = asked;
     plain.tolerance = least_tolerance;
-    Impulses swept;
+    double sunk = sinking(result, dt);
+    Impulses swept = result.impulses;
     for (plain.max_iterations = first_settling;
-         plain.max_iterations <= last_settling && result.converged &&
-         result.iterations < asked.max_iterations && sinking(result, dt) > wanted_sinking;
+         plain.max_iterations <= last_settling && result.converged && sunk > wanted_sinking &&
+         result.iterations < asked.max_iterations;
          plain.max_iterations *= 2) {
-        SolverResult next =
-            solver_->solve(contacts_.problem, swept.empty() ? result.impulses : swept, plain);
+        SolverResult next = solver_->solve(contacts_.problem, swept, plain);
         swept = next.impulses;
         next.iterations += result.iterations;
-        result.iterations = next.iterations;
         next.converged = next.residual <= asked.tolerance;
-        if (next.converged) result = std::move(next);
+        result.iterations = next.iterations;
+        if (!next.converged) continue;
+        result = std::move(next);
+        sunk = sinking(result, dt);
     }
+    return sunk;
 }
 
 /// Over the contacts of all ranks.

@@ -207,7 +207,7 @@ class Engine {
     void pose(const std::vector<Twist>& free, Mobilities mobilities, double dt);
     SolverResult solve(double dt);
     SolverResult solve_from(const Impulses& guess, double dt);
-    void settle(SolverResult& result, double dt);
+    double settle(SolverResult& result, double dt);
     double sinking(const SolverResult& result, double dt);
     StepReport hand_out(SolverResult result, double dt);
     void sum_impulses();

@@ -46,7 +46,8 @@ class Budget:
 @once_per_run
 def budget(run):
     """None for runs of versions that do not write the works, where grains that leave at the bottom come in at the top,
-    which changes their potential energy, where one leaves before the second row, and where grains are driven, on which nobody adds up the work."""
+    which changes their potential energy, where one leaves before the second row, and where grains are driven, on which
+    nobody adds up the work."""
     time, contacts = run.column('contact_work')
     potential = run.column('potential_energy')[1]
     if not len(contacts) or len(potential) != len(contacts) + 1 or run.has_cyclic_floor() or drives_grains(run):

@@ -227,8 +227,8 @@ def add_concentration(page, run):
                     label=rf'$t = {found.time[i]:.3g}\,t_c$')
     beside.legend(fontsize=8)
     bed = concentration.bed(run)
-    told = 'the box is empty.' if bed is None else (f'the layers up to {bed[0]:.3g} D, those above half of the densest, '
-                                                    f'hold {bed[1]:.3g} on average.')
+    told = 'the box is empty.' if bed is None else (f'the layers above half of the densest, {bed[0]:.3g} D in all, hold '
+                                                    f'{bed[1]:.3g} on average.')
     page.heading('Concentration over height')
     page.panels([(figure, 'concentration'), (other, 'concentration_profiles')],
                 f'Solid share of layers of one D. At the end {told}')
