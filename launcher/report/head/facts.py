@@ -51,11 +51,14 @@ def facts(run):
 
 
 def density_of(run):
-    """Over the fluid's: of the case, or the range of those in the first output, where grains may have their own."""
+    """Over the fluid's: of the grains in the first output, which may have their own; without one, of the case."""
     first = grain_files.quiet_series(run)[:1]
-    found = or_remark(run, 'Density', lambda: solid.densities(run, grain_files.read_grains(*first[0]))) if first else None
-    if found is None or not len(found) or np.ptp(found) < 1e-6 * found.max():
+    grains = or_remark(run, 'Density', lambda: grain_files.read_grains(*first[0])) if first else None
+    if grains is None or grains.densities is None or not len(grains.densities):
         return f'density ratio {run.case.get("grains.density_ratio")}'
+    found = solid.densities(run, grains)
+    if np.ptp(found) < 1e-6 * found.max():
+        return f'density ratio {found[0]:.4g}'
     return f'density ratios {found.min():.4g} to {found.max():.4g}'
 
 

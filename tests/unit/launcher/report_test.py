@@ -23,6 +23,7 @@ import report
 import run_data
 import surface
 from document.typeset import typeset
+from head import facts
 
 FIGURES = ['concentration.png', 'concentration_profiles.png', 'motion-max_penetration.png', 'motion-mean_speed.png',
            'sequence-0.png', 'sequence-1.png', 'sequence.png', 'settling-mean_position_y.png', 'settling-mean_velocity_y.png',
@@ -409,6 +410,18 @@ class Report(RunFolderTest):
         uneven = cut_at(20.0, row=0.26)  # its last row comes sooner than the others
         self.assertIsNone(relaxation.relaxation_time(uneven))
         self.assertIsNotNone(relaxation.relaxation_bound(uneven))
+
+    def test_the_case_tells_the_densities_that_grains_have(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('  adapter', '  density_ratio: 1.5\n  adapter'))
+        path = self.folder / 'grains/grains_00000000.vtp'
+        text = path.read_text()
+        told = lambda: facts.density_of(run_data.load_run(self.folder))
+        self.assertEqual(told(), 'density ratio 1.5')
+        for own, words in (('2 2.5', 'ratios 2 to 2.5'), ('7.8 7.8', 'ratio 7.8')):
+            path.write_text(text.replace('</PointData>', '<DataArray type="Float64" Name="density" format="ascii">'
+                                         f'{own}</DataArray></PointData>'))
+            self.assertEqual(told(), f'density {words}')
 
     def test_rows_need_not_be_equally_far_apart(self):
         """As after `resume --set output.interval`, or an output on request."""
