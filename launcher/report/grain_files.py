@@ -5,6 +5,8 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from analysis.once import once_per_run, or_remark
+
 
 @dataclass
 class Grains:
@@ -57,6 +59,13 @@ def grain_series(run):
 def quiet_series(run):
     """The same without a remark when there is none."""
     return grain_series(run) if (run.folder / 'grains' / 'grains.pvd').exists() else []
+
+
+@once_per_run
+def first_grains(run):
+    """The grains of the first output; None without one, and a remark where it cannot be read."""
+    first = quiet_series(run)[:1]
+    return or_remark(run, 'The first output', lambda: read_grains(*first[0])) if first else None
 
 
 def grains_at(run, time):

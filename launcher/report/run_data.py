@@ -84,26 +84,9 @@ class RunData:
         width, leave a part of the floor bare."""
         if self.case.get('scales.kind') != 'avalanche':
             return False
-        count, front = self._free_at_first()
+        count, front = free_at_first(self)
         bare = front is None or 'domain.size' not in self.case or front < BARE_FROM * self.size()[0]
         return bare and (count is None or count >= FEWEST_IN_COLUMN)
-
-    def _free_at_first(self):
-        """(number, front [D]) of the grains whose motion is not prescribed, in the first output; by the history, which has
-        all grains, where there is no file of them. None where neither tells it."""
-        if 'first' not in self.measured:
-            self.measured['first'] = self._read_free_at_first()
-        return self.measured['first']
-
-    def _read_free_at_first(self):
-        counts, front = self.column('grains')[1], self.column('front_x')[1]
-        told = int(counts[0]) if len(counts) else None, float(front[0]) if len(front) else None
-        try:
-            grains = grain_files.read_grains(*grain_files.quiet_series(self)[0]).free()
-        except (IndexError, ValueError, KeyError, OSError, AttributeError, SyntaxError):
-            return told
-        ends = (grains.centres[:, 0] + grains.radii) / self.scale('D')
-        return len(ends), float(ends.max()) if len(ends) else None
 
     def is_packed(self):
         """The grains are a packing from the start: they stand on a lattice."""
@@ -150,6 +133,18 @@ class RunData:
         """A quantity in the last row of the history; None where it is empty, as the means of a box without grains are."""
         value = np.nan if self.history is None or name not in self.history else self.history[name][-1]
         return float(value) if np.isfinite(value) else None
+
+
+def free_at_first(run):
+    """(number, front [D]) of the grains whose motion is not prescribed, in the first output; by the history, which has all
+    grains, where there is no file of them. None where neither tells it."""
+    grains = grain_files.first_grains(run)
+    if grains is None:
+        counts, front = run.column('grains')[1], run.column('front_x')[1]
+        return int(counts[0]) if len(counts) else None, float(front[0]) if len(front) else None
+    free = grains.free()
+    ends = (free.centres[:, 0] + free.radii) / run.scale('D')
+    return len(ends), float(ends.max()) if len(ends) else None
 
 
 def load_run(folder):

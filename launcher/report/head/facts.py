@@ -4,7 +4,6 @@ import numpy as np
 
 import grain_files
 import solid
-from analysis.once import or_remark
 
 SIDES = {False: ('left', 'right', 'bottom', 'top'), True: ('left', 'right', 'bottom', 'top', 'front', 'back')}
 
@@ -52,8 +51,7 @@ def facts(run):
 
 def density_of(run):
     """Over the fluid's: of the grains in the first output, which may have their own; without one, of the case."""
-    first = grain_files.quiet_series(run)[:1]
-    grains = or_remark(run, 'Density', lambda: grain_files.read_grains(*first[0])) if first else None
+    grains = grain_files.first_grains(run)
     if grains is None or grains.densities is None or not len(grains.densities):
         return f'density ratio {run.case.get("grains.density_ratio")}'
     found = solid.densities(run, grains)
