@@ -12,10 +12,12 @@
 // distance between a surface and the outermost centres in it. Distances are exact between centres
 // of voxels: squares are minimised axis by axis, over the few steps that D has. Cyclic sides are
 // taken into account; beyond the others everything is open, so that the gap between a wall and a
-// grain is no pore, as in the plane. Two spheres that touch have 0.12 D^3 of pores around the
-// contact.
+// grain is no pore, as in the plane. Where grains are far apart the box around them is cut into
+// pieces, of which those without grains cost nothing. Two spheres that touch have 0.12 D^3 of pores
+// around the contact.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "coupler/rigid/vec3.hpp"
@@ -28,7 +30,8 @@ struct SolidBall {
 };
 
 /// [m3], to about one percent of the solid. `period` [m] per axis, 0 where the domain is
-/// not cyclic.
-double pore_volume(const std::vector<SolidBall>& balls, double diameter, const Vec3& period);
+/// not cyclic. Pieces of at most 192 voxels a side take 62 MB; how the box is cut changes nothing.
+double pore_volume(const std::vector<SolidBall>& balls, double diameter, const Vec3& period,
+                   std::int64_t longest_piece = 192);
 
 }  // namespace turbidite

@@ -139,6 +139,28 @@ TEST(PoreVoxels, AcrossACyclicSideGrainsMeet) {
     EXPECT_NEAR(pore_volume(pair, 1.0, {0, 0, 4}), 0.1225, 0.03);
 }
 
+TEST(PoreVoxels, HowTheBoxIsCutChangesNothing) {
+    std::vector<SolidBall> balls = fcc(4, 1.0);
+    for (SolidBall& ball : balls) ball.centre[1] += 0.3 * std::sin(7.0 * ball.centre[0]);
+    balls.push_back({{3, 3, -0.4}, 0.8});  // across a cyclic side, and larger
+    const double side = 4.0 * std::numbers::sqrt2;
+    for (const Vec3& period : {Vec3{}, Vec3{0, 0, side}, Vec3{side, 0, side + 20.0}}) {
+        const double whole = pore_volume(balls, 1.0, period, 1000000);
+        EXPECT_GT(whole, 10.0);
+        for (const std::int64_t longest : {150, 61, 44, 23})
+            EXPECT_EQ(pore_volume(balls, 1.0, period, longest), whole) << longest;
+    }
+}
+
+TEST(PoreVoxels, OfGrainsThatAreFarApartAreThoseOfEach) {
+    // 5e14 voxels in one piece
+    std::vector<SolidBall> balls;
+    for (const double far : {0.0, 1e4})
+        for (const double x : {0.0, 1.0}) balls.push_back({{x + far, far, far}, 0.5});
+    const std::vector<SolidBall> pair{balls[0], balls[1]};
+    EXPECT_EQ(pore_volume(balls, 1.0, {}), 2.0 * pore_volume(pair, 1.0, {}));
+}
+
 /// Column name -> text of the only row.
 std::map<std::string, std::string> cells(const RowValues& values) {
     std::istringstream names(history_header()), row(history_line(values));
