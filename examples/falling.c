@@ -19,14 +19,6 @@ static int answer_with_all(turbidite_state* answer) {
 static int initialise(void* self, const turbidite_settings* settings, const turbidite_grain* given,
                       size_t given_count, turbidite_state* answer) {
     (void)self;
-    if (turbidite_real(settings, "contact.friction") > 0.0)
-        return turbidite_fail("falling knows no friction: contact.friction", 0), 1;
-    if (turbidite_integer(settings, "grains.ranks") > 1)
-        return turbidite_fail("falling runs on one rank only: grains.ranks", 0), 1;
-    if (strcmp(turbidite_text(settings, "domain.right"), "wall") != 0)
-        return turbidite_fail("falling knows no free sides: domain.right", 0), 1;
-    for (size_t i = 0; i < given_count; ++i)
-        if (given[i].prescribed) return turbidite_fail("falling moves free grains only", 0), 1;
     count = given_count;
     grains = malloc(count * sizeof *grains);
     if (grains == NULL && count > 0) return turbidite_fail("out of memory", 0), 1;
@@ -113,7 +105,8 @@ static const turbidite_adapter falling = {.name = "falling-c",
                                           .apply_kick = apply_kick,
                                           .save = save,
                                           .restore = restore,
-                                          .dimensions = TURBIDITE_BOTH_DIMENSIONS};
+                                          .dimensions = TURBIDITE_BOTH_DIMENSIONS,
+                                          .knows = TURBIDITE_KNOWS_NO_MORE};
 
 int main(int argc, char** argv) {
     return turbidite_run_grains(&falling, &argc, &argv, argv[argc - 1]);

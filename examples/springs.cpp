@@ -34,20 +34,12 @@ class Springs : public GrainsAdapter {
         return hello;
     }
 
+    // Nothing beyond the least: cases with friction, free sides, ... are refused.
+    std::optional<Abilities> abilities() const override { return Abilities{}; }
+
     Motion initialise(const Settings& s, const ShapeTable&,
                       const std::vector<GrainState>& grains) override {
         run = run_values(s);
-        for (const char* side : {"left", "right", "bottom", "top", "front", "back"}) {
-            const std::string key = std::string("domain.") + side;
-            if (s.has(key) && s.text(key) != "wall")  // the plane has no front and back
-                throw std::runtime_error("springs supports walls on all sides only: " + key);
-        }
-        if (s.integer("grains.ranks") > 1)  // contacts with grains of other ranks are not found
-            throw std::runtime_error("springs runs on one rank only: grains.ranks");
-        if (s.real("contact.friction") > 0)
-            throw std::runtime_error("springs knows no friction: contact.friction");
-        for (const GrainState& g : grains)
-            if (g.prescribed) throw std::runtime_error("springs moves free grains only: motion");
         omega = s.real("run.md_frequency"), damping = s.real("run.md_damping");
         substeps = s.integer("run.md_substeps");
         state.grains = grains;

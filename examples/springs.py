@@ -20,16 +20,10 @@ def turned(q, turn):
 class Springs:
     name, version, host_code, native_substeps = 'springs-py', '1.0', 'numpy', True
     shapes, dimensions = ['disc', 'sphere'], (2, 3)
+    knows = []                                                      # cases with friction, free sides, ... are refused
 
     def initialise(self, settings, shapes, grains):
         self.axes = 3 if settings.get('run.dimension') == '3' else 2
-        names = ('left', 'right', 'bottom', 'top', 'front', 'back')[:2 * self.axes]
-        if any(settings.text('domain.' + side) != 'wall' for side in names) or grains['prescribed'].any():
-            raise ValueError('springs.py supports free grains between walls on all sides only')
-        if settings.real('contact.friction') > 0:
-            raise ValueError('springs.py knows no friction: contact.friction')
-        if settings.integer('grains.ranks') > 1:                    # contacts with grains of other ranks are not found
-            raise ValueError('springs.py runs on one rank only: grains.ranks')
         self.grains, self.size = grains, [settings.real('run.size_' + axis) for axis in 'xyz'[:self.axes]]
         self.gravity, self.substeps = settings.real('run.gravity'), settings.integer('run.md_substeps')
         self.omega, self.damping = settings.real('run.md_frequency'), settings.real('run.md_damping')

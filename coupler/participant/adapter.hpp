@@ -19,10 +19,12 @@
 /// Valid C++17.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "coupler/participant/abilities.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/files/stored_file.hpp"
 #include "coupler/protocol/hello.hpp"
@@ -52,10 +54,16 @@ class GrainsAdapter {
     /// ends with code 3 if the case needs what is not claimed here.
     virtual Hello describe() const = 0;
 
+    /// What it can do beyond the least (abilities.hpp). The library then refuses, naming the key,
+    /// every case that asks for more; initialise gets no other. Without an answer initialise has to
+    /// look itself.
+    virtual std::optional<Abilities> abilities() const { return std::nullopt; }
+
     /// Receives the resolved case, the table of shapes and this rank's share of the grains at
     /// t = 0. Returns exactly these grains, unmoved and without impulses; report.max_penetration
     /// is their largest overlap. Throws, naming the key, if the case asks for what the program
-    /// cannot do: nobody else knows. `settings` and `shapes` are valid during the call only.
+    /// cannot do and `abilities` does not tell. `settings` and `shapes` are valid during the call
+    /// only.
     virtual Motion initialise(const Settings& settings, const ShapeTable& shapes,
                               const std::vector<GrainState>& grains) = 0;
 

@@ -160,7 +160,7 @@ Motion motion(const turbidite_state& state) {
 /// The struct of the first header, which has no size in the call.
 // Members were added behind those of the first header, never between them.
 constexpr std::size_t first_size = offsetof(turbidite_adapter, restores_within_window);
-static_assert(offsetof(turbidite_adapter, dimensions) + sizeof(turbidite_adapter::dimensions) ==
+static_assert(offsetof(turbidite_adapter, knows) + sizeof(turbidite_adapter::knows) ==
                   sizeof(turbidite_adapter),
               "padding would be read as a member that follows");
 
@@ -233,6 +233,11 @@ class CAdapter final : public GrainsAdapter {
         if (c_.joined)
             launch.joined = [this](int communicator) { c_.joined(c_.self, communicator); };
         return run_grains(*this, launch);
+    }
+
+    std::optional<Abilities> abilities() const override {
+        if (c_.knows == 0) return std::nullopt;
+        return abilities_of(c_.knows);
     }
 
     Motion initialise(const Settings& settings, const ShapeTable& shapes,

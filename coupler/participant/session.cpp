@@ -269,8 +269,15 @@ class GrainsSession final : public RoleSession<GrainsAdapter> {
         const auto shapes = receive<ShapeTable>(Kind::shapes);
         const auto share = receive<Motion>(Kind::population);
         send(Kind::state, compute("initialise", [&] {
+                 if (const std::optional<Abilities> able = adapter_.abilities())
+                     refuse_case(beyond(*able, settings, share.grains));
                  return adapter_.initialise(settings, shapes, share.grains);
              }));
+    }
+
+    static void refuse_case(const std::string& reason) {
+        if (!reason.empty())
+            throw std::runtime_error("the program cannot play this case: " + reason);
     }
 
     void take(const FramedMessage& message) override {

@@ -166,6 +166,19 @@ void* turbidite_room(turbidite_bytes* state, size_t size);
 /** turbidite_adapter::dimensions of a program that plays in the plane and in space. */
 #define TURBIDITE_BOTH_DIMENSIONS 23
 
+/** turbidite_adapter::knows: what a program can do beyond free grains of one material that touch
+ * without friction, between walls at rest, on one rank. Added up by `|`; TURBIDITE_KNOWS_NO_MORE
+ * alone is nothing beyond. */
+#define TURBIDITE_KNOWS_NO_MORE 1        /**< the least */
+#define TURBIDITE_KNOWS_RANKS 3          /**< grains.ranks above 1 */
+#define TURBIDITE_KNOWS_OPEN_SIDES 5     /**< sides that are free or cyclic */
+#define TURBIDITE_KNOWS_INNER_WALLS 9    /**< walls inside the box: run.walls */
+#define TURBIDITE_KNOWS_MOVING_WALLS 17  /**< walls that move: run.wall_motions */
+#define TURBIDITE_KNOWS_GIVEN_MOTIONS 33 /**< grains that keep their velocity: `prescribed` */
+#define TURBIDITE_KNOWS_MATERIALS 65     /**< run.materials and run.side_material */
+#define TURBIDITE_KNOWS_FRICTION 129     /**< contact.friction */
+#define TURBIDITE_KNOWS_LAWS 257         /**< restitution, adhesion, rolling, contact.law */
+
 /** A granular code: what it is and its functions. A program sets what it has and leaves the rest
  * zero.
  *
@@ -222,6 +235,10 @@ typedef struct {
 
     /** Of space that the program plays in: 2 or 3, TURBIDITE_BOTH_DIMENSIONS; 0: 2. */
     int64_t dimensions;
+
+    /** What it can do, TURBIDITE_KNOWS_*: every case that asks for more is then refused, naming
+     * the key, before `initialise`. 0: `initialise` has to refuse it. */
+    uint64_t knows;
 } turbidite_adapter;
 
 /** The text of the failure of the present call, which fails whatever it returns. `unphysical`, if

@@ -13,6 +13,7 @@
 #include "launcher/adapter_test/contact_requirements.hpp"
 #include "launcher/adapter_test/partner.hpp"
 #include "launcher/adapter_test/trial_grain.hpp"
+#include "launcher/adapter_test/trial_recording.hpp"
 
 namespace turbidite {
 namespace {
@@ -115,16 +116,21 @@ Finding lands(const Candidate& candidate, const std::filesystem::path& folder) {
     const Trial trial = play_trial(
         candidate, {"landing", above_the_floor, {"time.end=3", "output.interval=0.1"}}, folder);
     if (!trial.done()) return failure_of(trial.outcome);
-    const double speed = trial.last("mean_speed"), height = trial.last("mean_position_y");
-    if (height < 0.5 - deepest_overlap)
-        return {Grade::failed,
-                fmt::format("grains sink into the floor: mean height {:.3g} D", height)};
+    const double speed = trial.last("mean_speed");
+    const std::vector<Motion> states = states_of(trial.recording);
+    for (const GrainState& grain : states.back().grains) {
+        const double above = grain.position[1] / trial.settings.real("run.diameter");
+        if (std::abs(above - 0.5) > deepest_overlap)
+            return {Grade::failed,
+                    fmt::format("grains {} the floor: grain {} is at {:.3g} D",
+                                above < 0.5 ? "sink into" : "stay above", grain.id, above)};
+    }
     if (!(speed < at_rest))
         return {Grade::failed, fmt::format("grains are not at rest: mean speed {:.2g} u_c", speed)};
     if (const Overlap overlap = judge_overlap(trial); overlap.finding.grade == Grade::failed)
         return overlap.finding;
-    return {Grade::met, fmt::format("at rest at {:.4g} D, grain_balance {:.0e}", height,
-                                    trial.maximum("grain_balance"))};
+    return {Grade::met, fmt::format("at rest at {:.4g} D, grain_balance {:.0e}",
+                                    trial.last("mean_position_y"), trial.maximum("grain_balance"))};
 }
 
 Finding collides(const Candidate& candidate, const std::filesystem::path& folder) {

@@ -90,6 +90,11 @@ Candidate candidate_of(const AdapterTestOptions& options) {
     Candidate candidate = options.candidate;
     candidate.side = options.side == "fluid" ? Role::fluid : Role::grains;
     candidate.words = with_absolute_files(options.words, std::filesystem::current_path());
+    if (!candidate.words.empty() && candidate.adapter != users_program)
+        throw refused(
+            fmt::format("plays the shipped adapter {} or a program, not both: leave out "
+                        "--adapter, or {}.",
+                        candidate.adapter, candidate.words.front()));
     if (candidate.side == Role::grains && candidate.words.empty() &&
         candidate.adapter == users_program)
         throw refused(

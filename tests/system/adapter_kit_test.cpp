@@ -115,6 +115,12 @@ TEST_F(AdapterKit, ExamplesAreBuiltOutsideOfTheTreeAndSettleLikeTheContactEngine
     expect_settled(run_external("mine/build/falling", "--set limits.penetration=10"), "falling-c",
                    0.05);
     expect_goes_on("mine/build/falling", "--set limits.penetration=10");
+    for (const char* program :
+         {"mine/build/springs", "/usr/bin/python3 mine/springs.py", "mine/build/falling"}) {
+        const Answer refused = run_external(program, "--set contact.restitution=0.5");
+        EXPECT_EQ(refused.code, 4) << program;
+        EXPECT_SAYS(refused.err, "the program cannot play this case: contact.restitution = 0.5");
+    }
 }
 
 // The package of a program that is not built with CMake: every header stands for itself, flags come

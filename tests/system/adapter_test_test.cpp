@@ -146,6 +146,10 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenProgram{"NeverGoesBack", "broken-grains 'never goes back'", "repeats a window",
                       "does not go back to t^n"},
         BrokenProgram{"NoFloor", "careless grains", "lands and comes", "sink into the floor"},
+        BrokenProgram{"OneSinks", "contact-grains 'one sinks'", "lands and comes",
+                      "grains sink into the floor: grain 8 is at 0.38 D"},
+        BrokenProgram{"HighFloor", "contact-grains 'high floor'", "lands and comes",
+                      "grains stay above the floor: grain "},
         BrokenProgram{"GoesHalf", "contact-grains 'goes half'", "falls freely",
                       "from where its velocity"},
         BrokenProgram{"NeverRests", "contact-grains 'never rests'", "lands and comes",
@@ -300,6 +304,10 @@ TEST_F(AdapterTest, NeedsAProgramThatIsThere) {
                 "no executable program no-such-program");
     EXPECT_SAYS(judge("--adapter nonsense").err, "nonsense");
     EXPECT_EQ(judge("--adapter nonsense").code, 2);
+    // Which of the two would be judged?
+    const Answer both = judge("--adapter standalone-nscd -- no-such-program");
+    EXPECT_EQ(both.code, 2);
+    EXPECT_SAYS(both.err, "plays the shipped adapter standalone-nscd or a program");
     const Answer none = judge("--adapter standalone-nscd --only flies");
     EXPECT_EQ(none.code, 2);
     EXPECT_SAYS(none.err, "has no requirement \"flies\"; there are\n  falls freely");

@@ -66,8 +66,8 @@ TEST_F(CInterface, AProgramOfALaterHeaderRunsOrIsRefusedInWords) {
     const Answer used = run("other_sizes uses-more");
     EXPECT_EQ(used.code, 3) << used.out << used.err;
     EXPECT_SAYS(used.err,
-                "the turbidite_adapter of the program has 136 bytes, this library knows "
-                "128 of them, and the program uses more");
+                "the turbidite_adapter of the program has 144 bytes, this library knows "
+                "136 of them, and the program uses more");
 
     const Answer small = run("other_sizes too-small");
     EXPECT_EQ(small.code, 3) << small.out << small.err;

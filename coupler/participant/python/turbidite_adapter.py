@@ -9,6 +9,7 @@
         shapes, native_substeps, effective_inertia = ['disc'], True, False
         restores_within_window = False
         dimensions = (2,)                                     # of space: (2,), (3,) or (2, 3)
+        knows = ['friction']                                  # beyond the least: of KNOWS
 
         def initialise(self, settings, shapes, grains): ...   # -> Motion, the grains at t = 0
         def advance(self, window, responses): ...             # -> Motion, the contacts (step 4)
@@ -25,11 +26,15 @@ to change; `settings` is a Settings, `shapes` a list of Shape (kind, vertices), 
 write_output). An exception ends the run for all participants with its text: exit code 4, or 6 for PhysicsRefused; one in
 `save` costs this checkpoint only.
 
+`knows` lists what the program can do beyond free grains of one material that touch without friction, between walls at rest,
+on one rank: names of KNOWS. Cases that ask for more are then refused, naming the key. Without it `initialise` has to.
+
 Everything passes through the C interface, turbidite.h, in libturbidite.so.
 """
 import atexit
 import collections
 import ctypes
+import functools
 import os
 import sys
 import traceback
@@ -89,6 +94,11 @@ CONTACT = _record('a#', 'b#', 'wall#', 'feature#', 'status#', 'gap', 'length', (
 
 Shape = collections.namedtuple('Shape', 'kind vertices')
 Window = collections.namedtuple('Window', 'index time step write_output')
+
+
+# TURBIDITE_KNOWS_* of turbidite.h.
+KNOWS = {'ranks': 3, 'open_sides': 5, 'inner_walls': 9, 'moving_walls': 17, 'given_motions': 33, 'materials': 65,
+         'friction': 129, 'laws': 257}
 
 
 class PhysicsRefused(Exception):
@@ -188,7 +198,7 @@ class _Adapter(ctypes.Structure):
         ('save', _function(_pointer)), ('restore', _function(_pointer, _size)),
         ('restores_within_window', _integer), ('contact_laws', ctypes.POINTER(_text)),
         ('joined', ctypes.CFUNCTYPE(None, _pointer, ctypes.c_int)), ('communicator', _pointer),
-        ('dimensions', _integer)]
+        ('dimensions', _integer), ('knows', ctypes.c_uint64)]
 
 
 for _name, _result, *_arguments in (
@@ -296,6 +306,16 @@ def _dimensions(dimensions):
     return known[given]
 
 
+def _knows(names):
+    """Of turbidite.h; 0 where the adapter says nothing."""
+    if names is None:
+        return 0
+    for name in names:
+        if name not in KNOWS:
+            raise ValueError(f'knows has "{name}"; allowed are {", ".join(KNOWS)}')
+    return functools.reduce(lambda bits, name: bits | KNOWS[name], names, 1)
+
+
 def _describe(adapter, struct):
     for text in ('name', 'version', 'host_code'):
         setattr(struct, text, str(getattr(adapter, text)).encode(errors='replace'))
@@ -304,6 +324,7 @@ def _describe(adapter, struct):
     struct.shapes = _texts(getattr(adapter, 'shapes', ['disc']))
     struct.contact_laws = _texts(getattr(adapter, 'contact_laws', []))
     struct.dimensions = _dimensions(getattr(adapter, 'dimensions', (2,)))
+    struct.knows = _knows(getattr(adapter, 'knows', None))
 
 
 def _struct(adapter):
