@@ -84,6 +84,8 @@ def form_of(where, node, of_study):
     recorded = node.get('recorded')
     if recorded is not None:
         known_only(f'{where}.recorded', recorded, KEYS['recorded'])
+        if not isinstance(recorded.get('commit'), str) or 'date' not in recorded:
+            raise Wrong(f'{where}.recorded: it has a commit, in quotes, and a date: {{commit: "0123456789", date: 2026-01-31}}')
     return Form(map_of(f'{where}.set', node.get('set') or {}, '{time.end: 5}'), found, recorded)
 
 
@@ -98,6 +100,8 @@ def expectation(where, run, what, bounds):
             raise Wrong(f'{where}.{what}: {key} = {value} is no number')
     if ('is' in bounds) != ('within' in bounds) or not bounds:
         raise Wrong(f'{where}.{what}: is and within belong together: {{is: 0.5, within: 0.01}}; or above, below')
+    if 'is' in bounds and ('above' in bounds or 'below' in bounds):
+        raise Wrong(f'{where}.{what}: is and within are both bounds; above and below cannot be added')
     lowest, highest = bounds.get('above', -INF), bounds.get('below', INF)
     if 'is' in bounds:
         lowest, highest = bounds['is'] - bounds['within'], bounds['is'] + bounds['within']

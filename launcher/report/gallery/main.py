@@ -42,6 +42,11 @@ class Gallery:
     def is_study(self, name):
         return re.search(r'^(parts|case):', self.file(name).read_text(), re.MULTILINE) is not None
 
+    def takes_quick(self, name):
+        """Whether it is played with `study --quick`: its parts have keys for that."""
+        return self.form == 'quick' and self.is_study(name) and re.search(
+            r'^\s+quick:', self.file(name).read_text(), re.MULTILINE) is not None
+
     def entry(self, name):
         if name not in self.entries:
             meant = quantities.did_you_mean(name, self.entries)
@@ -76,14 +81,15 @@ def spent_on(recorded):
     return f'{recorded["processor"]:.0f} s', f'{recorded["memory"]:.0f} MB'
 
 
-def as_json(gallery):
+def as_json(gallery, names):
+    """Of those names, or of all."""
     def of_form(form):
         bounds = [{'run': one.run, 'what': one.what, 'lowest': finite(one.lowest), 'highest': finite(one.highest)}
                   for one in form.expected]
         return {'set': form.overrides, 'expected': bounds, 'recorded': form.recorded,
                 'age': form.recorded and records.age(gallery.configs, form.recorded)}
     return json.dumps({name: {'study': gallery.is_study(name), **{form: of_form(one) for form, one in entry.forms.items()}}
-                       for name, entry in gallery.entries.items()}, indent=2)
+                       for name, entry in gallery.entries.items() if name in names or not names}, indent=2)
 
 
 def finite(value):
@@ -155,12 +161,14 @@ def play_now(gallery, name, form, folder):
     source = records.source(gallery.configs, gallery.options.expected, gallery.options.program)
     is_study = gallery.is_study(name)
     continued = is_study and begin_study(gallery, folder, source)
-    if not is_study:
-        records.forget_played(folder)
-    line = playing.command(gallery.options.program, gallery.file(name), is_study, form, folder)
+    kept = None if is_study else records.KeptRun(folder)
+    line = playing.command(gallery.options.program, gallery.file(name), form, folder, is_study, gallery.takes_quick(name))
     print(playing.shown(line), flush=True)
     begun = records.load_played(folder)
     played = playing.play(line, source)
+    if kept and played.code != 0 and kept.is_still_there():  # the run was refused
+        kept.restore()
+        return played
     if continued or begun != records.load_played(folder):  # another call has begun, too
         played.processor = played.memory = None
     records.save_played(folder, played)
@@ -239,8 +247,14 @@ def parsed(arguments):
 def act(options, tree):
     gallery = Gallery(options, tree)
     if options.json:
-        print(as_json(gallery))
-    elif not options.names:
+        for name in options.names:
+            gallery.entry(name)
+        print(as_json(gallery, options.names))
+        return 0
+    if not options.names:
+        for flag in ('record', 'judge'):
+            if getattr(options, flag):
+                raise entries.Wrong(f'--{flag} needs the name of a case or study. `turbidite gallery` lists all.')
         list_all(gallery)
     for name in options.names:
         gallery.form_of(name)

@@ -12,9 +12,10 @@ from records import Played
 MEASURED = Path(__file__).with_name('measured_process.py')
 
 
-def command(program, file, is_study, form, out):
-    verb = 'study' if is_study else 'run'
-    return [program, verb, str(file), *form.arguments(), '--out', str(out), *([] if is_study else ['--force'])]
+def command(program, file, form, out, study, own_quick=False):
+    """Of a case, or of a study, which may have a short form of its own."""
+    verb, last = ('study', ['--quick'] if own_quick else []) if study else ('run', ['--force'])
+    return [program, verb, str(file), *form.arguments(), '--out', str(out), *last]
 
 
 def shown(line):

@@ -55,7 +55,11 @@ def quantity(text):
     if not called:
         raise Unknown(f'"{text}" is no quantity. {did_you_mean(text, NAMED)}It is a name of the analysis, or one of '
                       'end(C), max(C), min(C), at(C, TIME), mean(C, FROM, TO) of a column C')
-    name, column, times = called.group(1), called.group(2), [float(v) for v in called.group(3).split(',')[1:]]
+    name, column = called.group(1), called.group(2)
+    try:
+        times = [float(v) for v in called.group(3).split(',')[1:]]
+    except ValueError:
+        raise Unknown(f'"{text}" is no quantity: times are numbers, as in at(C, 2.5)') from None
     if name not in CALLS or len(times) != CALLS[name][1]:
         raise Unknown(f'"{text}" is no quantity: there are end(C), max(C), min(C), at(C, TIME), mean(C, FROM, TO)')
     return lambda run: of_column(run, column, CALLS[name][0], times)

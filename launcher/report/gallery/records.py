@@ -48,9 +48,28 @@ def save_played(folder, played):
         (folder / PLAYED).write_text(json.dumps(asdict(played)) + '\n')
 
 
-def forget_played(folder):
-    """Before a run: it may be killed, and what an earlier one took is not what it took."""
-    (folder / PLAYED).unlink(missing_ok=True)
+class KeptRun:
+    """What an earlier run of a case took, forgotten before another one, which may be killed; to be restored where that one
+    was refused, and the earlier is still there."""
+
+    def __init__(self, folder):
+        self.file, self.run = folder / PLAYED, folder / 'run.json'
+        self.text, self.stamp = self.file.read_text() if self.file.is_file() else None, self._stamp()
+        self.file.unlink(missing_ok=True)
+
+    def is_still_there(self):
+        return self.stamp is not None and self.stamp == self._stamp()
+
+    def restore(self):
+        if self.text is not None:
+            self.file.write_text(self.text)
+
+    def _stamp(self):
+        """None without a run."""
+        if not self.run.is_file():
+            return None
+        found = self.run.stat()
+        return found.st_ino, found.st_mtime_ns
 
 
 def load_played(folder):

@@ -112,6 +112,10 @@ class Entries(unittest.TestCase):
                            ({'expected': {'end_hight': {'above': 1}}}, 'Did you mean end_height'),
                            ({'expected': {'end_height': {'is': 1}}}, 'is and within belong together'),
                            ({'expected': {'end_height': {}}}, 'above, below'),
+                           ({'expected': {'end_height': {'is': 1, 'within': 1, 'below': 1}}}, 'cannot be added'),
+                           ({'expected': {'at(time, 1.2.3)': {'below': 1}}}, 'times are numbers'),
+                           ({'recorded': {'date': '2026-01-01'}}, 'it has a commit, in quotes'),
+                           ({'recorded': {'commit': 1234567890.0, 'date': '2026-01-01'}}, 'it has a commit, in quotes'),
                            ({'expected': {'end_height': {'above': 'high'}}}, 'above = high is no number'),
                            ({'expected': {'overlap': None}}, 'a.full.expected.overlap: a map is needed'),
                            ({'expected': ['overlap']}, 'a.full.expected: a map is needed'),
@@ -226,6 +230,26 @@ class Gallery(Played):
         self.assertIn('holds   column/seed-1: end_height = 2.9 D', told)
         self.assertIn('FAILS   column/seed-2: end_height = 2.9 D', told)
 
+    def test_the_short_form_of_a_study_is_its_own_where_it_has_one(self):
+        self.study_of('seed-1')
+        form = {'expected': {'column/seed-1': {'end_height': {'is': 2.9, 'within': 0.1}}}}
+        tree = {'sweep': {'full': form, 'quick': form}}
+        self.assertNotIn('--quick', self.act('sweep', '--quick', tree=tree)[1])
+        with open(self.folder / 'configs/sweep.yaml', 'a', encoding='utf-8') as study:
+            study.write('    quick: {time.end: 1}\n')
+        code, told = self.act('sweep', '--quick', tree=tree)
+        self.assertEqual(code, 0, told)
+        self.assertRegex(told, r'turbidite study \S+/configs/sweep.yaml --out \S+/out/sweep-quick --quick\n')
+        self.assertNotIn('--quick', self.act('sweep', tree=tree)[1])
+
+    def test_a_refused_run_leaves_what_is_known_of_the_one_before(self):
+        self.act('falling')
+        with mock.patch.object(playing, 'play', return_value=records.Played(None, 2, 0.1, 1.0)):
+            self.assertEqual(self.act('falling')[0], 2)
+        code, told = self.act('falling', '--judge')
+        self.assertEqual(code, 0, told)
+        self.assertIn('2 of 2 numbers hold', told)
+
     def test_a_run_that_was_killed_is_not_judged(self):
         self.act('falling')
         self.write('out/falling/run.json', json.dumps({'status': 'prepared'}))
@@ -266,6 +290,13 @@ class Gallery(Played):
         self.assertEqual(listed['falling']['full']['expected'][0],
                          {'run': '', 'what': 'end_height', 'lowest': 2.8, 'highest': 3.0})
         self.assertFalse(listed['other']['study'])
+        code, told = self.act('--json', 'falling')
+        self.assertEqual((code, list(json.loads(told))), (0, ['falling']))
+        self.assertFalse((self.folder / 'out').exists())
+        for flag in ('--record', '--judge'):
+            code, told = self.act(flag)
+            self.assertEqual(code, 2)
+            self.assertIn(f'{flag} needs the name', told)
 
 
 @unittest.skipUnless(shutil.which('git'), 'records are of a checkout')
