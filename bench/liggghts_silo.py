@@ -31,7 +31,6 @@ sys.path.insert(0, str(ROOT / 'launcher/report'))
 
 import grain_files
 import run_data
-from space import walls
 
 # E of M1, 1 GPa, with 1.5 us, the longest of the benchmark's 0.5 to 1.5 us, and with 3.3 us, a fifth of the Rayleigh time,
 # which is the usual limit; then a hundredth of that E with the same shares of the Rayleigh time.
@@ -102,7 +101,7 @@ def read_state(path, size):
 
 def silo_of(run):
     d, number = run.scale('D'), lambda key: float(run.case[key])
-    cone, tube = (next(wall for wall in walls.plates.walls_of(run) if wall['kind'] == kind)
+    cone, tube = (next(wall for wall in grain_files.walls_of(run) if wall['kind'] == kind)
                   for kind in ('cone', 'cylinder'))
     value = {key: number('contact.' + key) for key in ('restitution', 'friction')}
     steel = {key: min(value[key], number(f'contact.materials.{cone["material"]}.{key}')) for key in value}
@@ -350,7 +349,7 @@ def kept_settings(run):
 
 
 def walls_without_gate(run, path):
-    rows = [wall for wall in walls.plates.walls_of(run) if not wall['motion']]
+    rows = [wall for wall in grain_files.walls_of(run) if not wall['motion']]
     lines = [','.join(rows[0])] + [','.join(wall.values()) for wall in rows]
     path.write_text('\n'.join(lines) + '\n')
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The series in a run's grains folder, and the content of a file of grains."""
+"""The series in a run's grains folder, the content of a file of grains, and the walls inside the box."""
+import csv
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass, fields, replace
 
@@ -45,6 +46,20 @@ class Grains:
     def positions(self):
         """(n, 3) centres."""
         return np.column_stack([self.centres, np.zeros(len(self.radii)) if self.z is None else self.z])
+
+
+def walls_of(run):
+    """The rows of grains/walls.csv; none if there are no walls."""
+    path = run.folder / 'grains' / 'walls.csv'
+    if not path.exists():
+        return []
+    with open(path, newline='') as file:
+        return list(csv.DictReader(file))
+
+
+def has_moving_walls(run):
+    rates = ('vx', 'vy', 'vz', 'spin', 'wx', 'wy', 'wz')
+    return any(wall.get('motion') or any(float(wall.get(rate) or 0.0) for rate in rates) for wall in walls_of(run))
 
 
 def grain_series(run):

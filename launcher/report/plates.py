@@ -1,24 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Walls inside the box (grains/walls.csv) where they are at a time: with their constant motion, or that of
 domain.motions which they name (coupler/protocol/scene/prescribed_motion.hpp)."""
-import csv
-
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 import grain_drawing
+import grain_files
 
 ENDS = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 9)  # angles of the points of a round end
 THIN = 1.2  # points
-
-
-def walls_of(run):
-    """The rows of grains/walls.csv; none if there are no walls."""
-    path = run.folder / 'grains' / 'walls.csv'
-    if not path.exists():
-        return []
-    with open(path, newline='') as file:
-        return list(csv.DictReader(file))
 
 
 def shift(run, wall, time):
@@ -49,7 +39,7 @@ def outline(run, wall, time):
 
 def draw(axes, run, time):
     """Adds the walls to a plot with axes in D; `time` in t_c."""
-    outlines = [outline(run, wall, time) for wall in walls_of(run)]
+    outlines = [outline(run, wall, time) for wall in grain_files.walls_of(run)]
     thick, thin = [o for o in outlines if len(o) > 2], [o for o in outlines if len(o) == 2]
     if thick:
         axes.add_collection(PolyCollection(thick, facecolors=grain_drawing.EDGE, edgecolors='none'))

@@ -81,8 +81,8 @@ class RunData:
 
     def is_avalanche(self):
         """A column collapses: velocities are in sqrt(g D), and at first some free grains, which do not reach to 0.9 of the
-        width, leave a part of the floor bare."""
-        if self.case.get('scales.kind') != 'avalanche':
+        width, leave a part of the floor bare. Those in a drum or a pipe do not stand on it."""
+        if self.case.get('scales.kind') != 'avalanche' or in_lying_pipe(self):
             return False
         count, front = free_at_first(self)
         bare = front is None or 'domain.size' not in self.case or front < BARE_FROM * self.size()[0]
@@ -142,9 +142,37 @@ def free_at_first(run):
     if grains is None:
         counts, front = run.column('grains')[1], run.column('front_x')[1]
         return int(counts[0]) if len(counts) else None, float(front[0]) if len(front) else None
-    free = grains.free()
-    ends = (free.centres[:, 0] + free.radii) / run.scale('D')
-    return len(ends), float(ends.max()) if len(ends) else None
+    extent = first_extent(run)
+    return len(grains.free().radii), None if extent is None else float(extent[1][0])
+
+
+def first_extent(run):
+    """(low, high), in D, of the box around the grains whose motion is not prescribed, in the first output; None without
+    such grains or without a file of them."""
+    grains = grain_files.first_grains(run)
+    free = None if grains is None else grains.free()
+    if free is None or not len(free.radii):
+        return None
+    places, radii = free.positions() / run.scale('D'), free.radii[:, None] / run.scale('D')
+    return (places - radii).min(axis=0), (places + radii).max(axis=0)
+
+
+def in_lying_pipe(run):
+    """Whether a round wall whose axis is not vertical was around the grains at first."""
+    extent = first_extent(run)
+    return extent is not None and any(
+        wall.get('kind') in ('cylinder', 'cone') and is_lying_around(wall, *extent) for wall in grain_files.walls_of(run))
+
+
+def is_lying_around(wall, low, high):
+    place, axis = (np.array([float(wall.get(name) or 0.0) for name in names])
+                   for names in (('x', 'y', 'z'), ('ax', 'ay', 'az')))
+    if abs(axis[1]) > 0.7 * np.linalg.norm(axis):
+        return False
+    along = axis / np.linalg.norm(axis)
+    arm = 0.5 * (low + high) - place
+    radius = max(float(wall.get(name) or 0.0) for name in ('r1', 'r2'))
+    return 0.0 <= arm @ along <= np.linalg.norm(axis) and np.linalg.norm(arm - arm @ along * along) < radius
 
 
 def load_run(folder):

@@ -4,13 +4,14 @@
 
 The surface, followed to the right from its highest column of one D, first meets bare floor: single grains beyond do
 not count. The foot is the farthest point of the grains that begin left of that floor. Run-out: (foot at the end - foot at
-the start) / foot at the start.
+the start) / foot at the start. All of it is for columns that stand at the left side and, in space, fill the depth.
 """
 from dataclasses import dataclass
 
 import numpy as np
 
 import grain_files
+import run_data
 import surface
 from analysis.once import once_per_run
 
@@ -18,6 +19,7 @@ FITTED = (0.1, 0.9)  # of the height: the part of the surface whose slope is fit
 FEWEST_COLUMNS = 3
 STEEPEST = 50.0        # degrees: loose grains do not rest on a steeper slope
 SPREAD = 0.5           # D: a foot that moves by less only settles
+NEAR = 1.5             # D: grains of a column at a side are not farther from it
 STRAIGHT = 0.8         # least share of the variance that the line explains: a column that still stands has no slope
 
 
@@ -56,8 +58,8 @@ class Deposit:
 
 @once_per_run
 def deposit(run):
-    """At the last output of an avalanche; None without grains or domain."""
-    if not run.is_avalanche() or 'domain.size' not in run.case:
+    """At the last output of an avalanche from the left side; None without grains or domain."""
+    if not run.is_avalanche() or 'domain.size' not in run.case or not stands_at_left(run):
         return None
     series = grain_files.quiet_series(run)
     last, first = (surface.last_grains(run), grain_files.read_grains(*series[0])) if series else (None, None)
@@ -70,6 +72,16 @@ def deposit(run):
     slope = None if line is None else float(np.degrees(np.arctan(-line[1])))
     return Deposit(last.time / run.scale('t_c'), x, height, foot_of(run, first, before), foot_of(run, last, height),
                    float(height.max()), slope, line)
+
+
+def stands_at_left(run):
+    """Whether lengths from the left side are lengths of the column, and means over the depth are heights of it."""
+    extent = run_data.first_extent(run)
+    if extent is None:
+        return False
+    low, high = extent
+    fills_depth = not run.in_space() or (low[2] <= NEAR and high[2] >= run.depth() - NEAR)
+    return low[0] <= NEAR and fills_depth
 
 
 def covered(height):

@@ -107,9 +107,10 @@ def dissipated_share(run, part):
 
 @once_per_run
 def fluid_kinetic(run):
-    """(times [t_c], kinetic energy of the liquid outside grains) at up to 11 of the fields with grains; None without."""
+    """(times [t_c], kinetic energy of the liquid outside grains) at up to 11 of the fields with grains; None without, and
+    where walls inside the box move, whose cells would count as liquid."""
     there = snapshots.snapshots(run)
-    if not run.is_wet() or not there or 'domain.size' not in run.case:
+    if not run.is_wet() or not there or 'domain.size' not in run.case or grain_files.has_moving_walls(run):
         return None
     box = np.prod(run.size()) * (run.depth() if run.in_space() else 1.0)
     mass = there[0].areas.sum() * there[0].density  # in rho_f D^2, in space rho_f D^3

@@ -113,18 +113,32 @@ def field_probes(run):
 
 
 def extreme(run, sign):
-    """Largest (sign 1) or smallest (-1) pressure at the last of the places, inside the pile, after the start."""
-    found = probes(run)
+    """Largest (sign 1) or smallest (-1) pressure at the last of the places in the pile, after the start."""
+    found = inside(run)
     if found is None or not run.is_avalanche():
         return None
-    inside = found.values[found.time > 0.0, -1]
-    return float(sign * (sign * inside).max()) if len(inside) else None
+    time, values = found
+    values = values[time > 0.0]
+    return float(sign * (sign * values).max()) if len(values) else None
 
 
 def while_starting(run):
     """(lowest, highest) there until the mean velocity of an avalanche has risen to half of its peak; None without."""
-    found, half = probes(run), peaks.half_time(run)
+    found, half = inside(run), peaks.half_time(run)
     if found is None or half is None or not run.is_avalanche():
         return None
-    early = found.values[(found.time > 0.0) & findings.until(found.time, half), -1]
+    time, values = found
+    early = values[(time > 0.0) & findings.until(time, half)]
     return (float(early.min()), float(early.max())) if len(early) else None
+
+
+def inside(run):
+    """(times, pressures) at the last of the places in the box around the grains of the first output; None without one."""
+    found, extent = probes(run), run_data.first_extent(run)
+    if found is None:
+        return None
+    if extent is None:  # as far as one knows
+        return found.time, found.values[:, -1]
+    low, high = (side[:found.places.shape[1]] for side in extent)
+    within = np.flatnonzero(((found.places >= low) & (found.places <= high)).all(axis=1))
+    return (found.time, found.values[:, within[-1]]) if len(within) else None

@@ -67,18 +67,36 @@ def read(time, path):
 
 
 def cut_grains(run, one, grains, larger=0.0):
-    """The spheres, with radii larger by so much, as discs where the plane cuts them; images beyond cyclic sides of its
-    axis are not forgotten."""
-    positions = grains.positions()
-    length = [*run.size(), run.depth()][one.axis] * run.scale('D')
+    """The spheres, with radii larger by so much, as discs where the plane cuts them, with their images beyond cyclic
+    sides."""
+    positions, period = grains.positions(), periods(run)
     off = positions[:, one.axis] - one.place
-    sides = {0: 'left', 1: 'bottom', 2: 'front'}
-    if run.case.get(f'domain.{sides[one.axis]}') == 'cyclic':
-        off -= length * np.round(off / length)
+    if period[one.axis]:
+        off -= period[one.axis] * np.round(off / period[one.axis])
     radii = grains.radii + larger
     there = np.abs(off) < radii
-    return grain_files.Grains(grains.time, positions[there][:, [one.across, one.up]],
-                              np.sqrt(radii[there]**2 - off[there]**2))
+    centres, cut = positions[there][:, [one.across, one.up]], np.sqrt(radii[there]**2 - off[there]**2)
+    for k, axis in enumerate((one.across, one.up)):
+        if period[axis]:
+            centres, cut = with_images(centres, cut, k, period[axis])
+    return grain_files.Grains(grains.time, centres, cut)
+
+
+def periods(run):
+    """Of the three axes, in the unit of the run; 0 where sides are not cyclic."""
+    lengths = np.array([*run.size(), run.depth()]) * run.scale('D')
+    return [length if run.case.get(f'domain.{side}') == 'cyclic' else 0.0
+            for length, side in zip(lengths, ('left', 'bottom', 'front'))]
+
+
+def with_images(centres, radii, axis, period):
+    """The discs, inside a period, and those that reach into it from beyond its ends."""
+    inside = centres.copy()
+    inside[:, axis] %= period
+    low, high = inside[:, axis] < radii, inside[:, axis] > period - radii
+    shift = np.eye(2)[axis] * period
+    return (np.concatenate([inside, inside[low] + shift, inside[high] - shift]),
+            np.concatenate([radii, radii[low], radii[high]]))
 
 
 def add(page, run):

@@ -5,6 +5,7 @@ edges, and lines along round walls. What lies behind the grains is drawn behind 
 import numpy as np
 from matplotlib.collections import LineCollection
 
+import grain_files
 import plates
 
 AROUND = 72           # pieces of a rim
@@ -16,7 +17,7 @@ BEFORE = {'linewidths': 0.5, 'colors': '#3c3c3c', 'alpha': 0.45, 'zorder': 2}
 def draw(axes, run, shown, time):
     """Adds the walls to the picture of a scene.Frame; `time` in t_c."""
     behind, before = [], []
-    for wall in plates.walls_of(run):
+    for wall in grain_files.walls_of(run):
         for line, outwards in lines(wall):
             points, outwards = placed(run, wall, time, line, outwards)
             facing = shown.camera.seen(outwards)[:, 2]
@@ -29,7 +30,7 @@ def draw(axes, run, shown, time):
 
 def extent(run):
     """(low, high) of all walls at t = 0 [D]; None without walls."""
-    points = [line for wall in plates.walls_of(run) for line, _ in lines(wall)]
+    points = [line for wall in grain_files.walls_of(run) for line, _ in lines(wall)]
     return (np.concatenate(points).min(axis=0), np.concatenate(points).max(axis=0)) if points else None
 
 

@@ -165,6 +165,18 @@ class WrittenDeposits(RunFolderTest):
         found = self.heap([3, 3], [3, 2, 1, 0, 0, 1], by=-0.3)
         np.testing.assert_allclose((found.first_foot, found.foot), (1.7, 2.7), rtol=0, atol=1e-12)
 
+    def test_lengths_are_those_of_a_column_at_the_left_side(self):
+        self.assertIsNone(self.heap([0, 0, 3, 3], [0, 2, 3, 3, 2]))
+        self.assertTrue(run_data.load_run(self.folder).is_avalanche())
+        self.assertIsNone(self.heap([3, 3], [3, 2, 1], depth=6))  # spheres in the middle of the depth
+
+    def test_grains_in_a_lying_drum_are_no_column(self):
+        for wall, is_column in (('cylinder,1,3,-1,0,0,9,4', False), ('cylinder,1,-1,0,0,9,0,4', True),
+                                ('cylinder,7,3,-1,0,0,9,0.9', True), ('plate,0,3,0,8,0,0,', True)):
+            self.heap([3, 3], [3, 2, 1], depth=1)
+            self.write('grains/walls.csv', f'id,kind,x,y,z,ax,ay,az,r1\n1,{wall}\n')
+            self.assertEqual(run_data.load_run(self.folder).is_avalanche(), is_column, wall)
+
     def test_a_sphere_ends_where_it_ends(self):
         for by in (-0.3, 0.3):
             self.assertAlmostEqual(self.heap([3, 3], [3, 2, 1], by=by, depth=1).foot, 3.0 + by)
@@ -465,6 +477,19 @@ class WrittenProbes(RunFolderTest):
         found = pore_pressure.probes(run_data.load_run(self.folder))
         np.testing.assert_allclose(found.values, [[2, -4], [6, 8]])  # over (1.5 - 1) g D
         self.assertEqual(found.places.tolist(), [[1, 2], [3, 0.5]])
+
+    def test_the_last_of_those_in_the_pile_is_inside(self):
+        lowest = lambda: pore_pressure.extreme(run_data.load_run(self.folder), -1)
+        rows = 'time,pressure_1,velocity_x_1,velocity_y_1,pressure_2,velocity_x_2,velocity_y_2\n0.5,1,0,0,-2,0,0\n'
+        for places, found in (('[0.5, 0.5, 3, 0.5]', 2.0), ('[3, 0.5, 0.5, 0.5]', -4.0), ('[3, 0.5, 3, 1]', None)):
+            self.write_all()
+            self.write('grains/grains_00000000.vtp', GRAIN.format(count=2, places='0.5 0.5 0 0.5 1.5 0', radii='0.5 0.5'))
+            self.write('grains/grains.pvd', '<VTKFile><Collection><DataSet timestep="0" part="0" '
+                       'file="grains_00000000.vtp"/></Collection></VTKFile>')
+            self.write('case.yaml', CASE.replace('sedimentation', 'avalanche').replace(
+                'grains:', f'output:\n  probes: {places}  # D\ngrains:\n  density_ratio: 1.5'))
+            self.write('probes.csv', rows)
+            self.assertEqual(lowest(), found, places)
 
     def test_have_three_coordinates_in_space(self):
         self.write_all()

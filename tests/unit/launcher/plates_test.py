@@ -9,6 +9,7 @@ import made_up_run  # puts launcher/report on the path
 import matplotlib
 import numpy as np
 
+import grain_files
 import plates
 import run_data
 
@@ -31,7 +32,7 @@ class Plates(unittest.TestCase):
         self.run_data = run_data.RunData(Path(folder.name), case=CASE)
         (Path(folder.name) / 'grains').mkdir()
         (Path(folder.name) / 'grains' / 'walls.csv').write_text(WALLS)
-        self.walls = plates.walls_of(self.run_data)
+        self.walls = grain_files.walls_of(self.run_data)
 
     def outline(self, k, time):
         return plates.outline(self.run_data, self.walls[k], time)

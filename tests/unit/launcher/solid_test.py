@@ -135,6 +135,11 @@ class WrittenGrains(RunFolderTest):
             self.write(f'grains/grains_{k:08d}.vtp', grain_file([4, 9][:2 - k], densities))
         np.testing.assert_allclose(energy.fluid_kinetic(self.run_data)[1], ours / 2.0)
 
+    def test_walls_that_move_are_no_liquid(self):
+        for wall, there in (('0,0,0', True), ('0,0,0.1', False), ('-1,0,0', False)):
+            self.write('grains/walls.csv', f'id,x1,y1,x2,y2,vx,vy,spin\n1,0,0,1,0,{wall}\n')
+            self.assertEqual(energy.fluid_kinetic(run_data.load_run(self.folder)) is not None, there, wall)
+
     def test_no_energy_is_left_where_only_the_cells_of_grains_move(self):
         self.write('case.yaml', CASE.replace('fluid:', 'fluid:\n  hydrodynamic_radius: 0.8'))
         # A disc of 0.4 D in 24 D2 with U = 6 u_c and w = 12/t_c has the energy of all cells with u^2 = share (U^2 + k^2 w^2).

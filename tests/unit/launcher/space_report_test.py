@@ -223,6 +223,16 @@ class Slices(SpaceRun):
         grains.z = np.array([0.1, 2.0, 2.0])
         np.testing.assert_allclose(slices.cut_grains(self.run_data, self.z, grains).radii, [np.sqrt(0.25 - 0.04)])
 
+    def test_a_sphere_through_a_cyclic_side_is_cut_at_both(self):
+        grains = self.grains()
+        grains.z = np.array([0.1, 2.0, 3.9])
+        self.x.place = 1.0  # z, which is cyclic, is in this plane
+        cut = slices.cut_grains(self.run_data, self.x, grains)
+        across = [0, 1][(self.x.across, self.x.up).index(2)]
+        places = sorted(cut.centres[:, across])
+        np.testing.assert_allclose(places, [-0.1, 0.1, 3.9, 4.1])
+        self.assertEqual(len(cut.radii), 4)
+
     def test_the_report_has_a_picture_of_each_plane(self):
         self.assertEqual(report.main(['report.py', str(self.folder)]), 0)
         names = [path.name for path in sorted((self.folder / 'pictures').glob('slice*'))]
@@ -292,7 +302,7 @@ class Walls(SpaceRun):
         self.write('case.yaml', CASE.replace('domain:\n', 'domain:\n' + GATE))
         self.write('grains/walls.csv', WALLS)
         self.run_data = run_data.load_run(self.folder)
-        self.walls = walls.plates.walls_of(self.run_data)
+        self.walls = grain_files.walls_of(self.run_data)
 
     def test_rims_lie_on_the_surface(self):
         for wall, radii, heights in zip(self.walls, ((2, 2), (2, 1), (1,)), ((0, 4), (0, -1), (1,))):
