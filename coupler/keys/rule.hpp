@@ -22,6 +22,7 @@ struct Rule {
     const char* key;                 ///< the key named in the error
     std::vector<const char*> reads;  ///< the others
     Ruling (*check)(const Settings&);
+    bool of_machine = false;  ///< asks what the machine that plays the case has
 };
 
 /// Keys, what they must satisfy together, and sentences for the user about a valid case.

@@ -14,16 +14,13 @@
 namespace turbidite {
 namespace {
 
-/// Room for the widest stencil, three layers, beside a wall.
-constexpr int least_cells = 4;
-
 int cell_count(const char* key, double size, double per_length) {
     const double cells = std::round(size * per_length);
-    if (!(cells >= least_cells && cells < 1e6))
+    if (!(cells >= fewest_cells && cells < 1e6))
         throw Failure(ExitCode::bad_input,
                       fmt::format("{} = {} gives {} cells; allowed are {} to a million: change "
                                   "domain.size or fluid.cells_per_diameter",
-                                  key, size, cells, least_cells));
+                                  key, size, cells, fewest_cells));
     return static_cast<int>(cells);
 }
 

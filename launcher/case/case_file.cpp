@@ -107,7 +107,7 @@ ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& en
 
 /// Read, check, place, resolve: each takes values and gives values, with the problems found.
 ResolvedCase resolved_case(CaseEntries entries, const std::filesystem::path& folder,
-                           const GivenGrains& given) {
+                           const GivenGrains& given, Machine machine) {
     CaseProblems problems = std::move(entries.problems);
     if (entries.entries.empty() && !problems.empty()) throw CaseRefused(std::move(problems));
     if (given.earlier) name_grains_file(entries);
@@ -116,7 +116,7 @@ ResolvedCase resolved_case(CaseEntries entries, const std::filesystem::path& fol
     choose_scheme(settings);
     choose_compacity(settings);
     const std::string of_program = choose_program(settings);
-    append(problems, check_rules(settings, entries));
+    append(problems, check_rules(settings, entries, machine));
     append(problems, check_materials(settings, entries));
     if (given.earlier) accept_overlaps(settings);
     PlacedCase placed = place(settings, entries, folder, given, !problems.empty());
@@ -132,15 +132,15 @@ ResolvedCase resolved_case(CaseEntries entries, const std::filesystem::path& fol
 
 EarlierStart earlier_run(const std::string& text) {
     const EarlierRun run = parse_earlier_run(text);
-    ResolvedCase resolved = load_run_folder(run.folder);
+    ResolvedCase resolved = load_run_folder(run.folder, {}, Machine::any);
     std::vector<std::string> materials = material_names(resolved.settings);
     return {run, {resolved.scales, std::move(resolved.shapes), std::move(materials)}};
 }
 
 ResolvedCase load(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                   const std::string& from, const GivenGrains& given) {
-    ResolvedCase result =
-        resolved_case(read_case_entries(file, overrides), file.parent_path(), given);
+    ResolvedCase result = resolved_case(read_case_entries(file, overrides), file.parent_path(),
+                                        given, Machine::this_one);
     result.name = file.stem().string();
     result.file = std::filesystem::absolute(file).lexically_normal();
     result.overrides = overrides;
@@ -172,10 +172,10 @@ ResolvedCase load_poured(const ResolvedCase& planned, const std::filesystem::pat
 }
 
 ResolvedCase load_run_folder(const std::filesystem::path& folder,
-                             const std::vector<std::string>& overrides) {
+                             const std::vector<std::string>& overrides, Machine machine) {
     const RunFolder paths{folder};
     ResolvedCase result = resolved_case(read_case_entries(paths.resolved_case(), overrides), folder,
-                                        {paths.initial_grains(), {}});
+                                        {paths.initial_grains(), {}}, machine);
     result.name = std::filesystem::absolute(folder).lexically_normal().filename().string();
     // Every program of the job hashes the file itself, which may have been edited by hand.
     if (overrides.empty())

@@ -12,6 +12,7 @@
 #include "coupler/keys/case_error.hpp"
 #include "coupler/protocol/records.hpp"
 #include "coupler/protocol/settings.hpp"
+#include "launcher/case/case_rules.hpp"
 #include "launcher/case/files/function_objects.hpp"
 #include "launcher/case/grains/packing/packing.hpp"
 #include "launcher/case/scales.hpp"
@@ -54,6 +55,7 @@ ResolvedCase load_poured(const ResolvedCase& planned, const std::filesystem::pat
 /// Reads DIR/case.yaml with the grains of DIR/grains/initial.csv: the folder prepared by `turbidite
 /// run`. With overrides the case is another one, which the folder does not have yet.
 ResolvedCase load_run_folder(const std::filesystem::path& folder,
-                             const std::vector<std::string>& overrides = {});
+                             const std::vector<std::string>& overrides = {},
+                             Machine machine = Machine::any);
 
 }  // namespace turbidite

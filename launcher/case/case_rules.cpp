@@ -83,11 +83,12 @@ CaseProblem problem_with(const std::string& key, const Objection& objection,
             .remedy = objection.remedy};
 }
 
-CaseProblems check_rules(const Settings& settings, const CaseEntries& entries) {
+CaseProblems check_rules(const Settings& settings, const CaseEntries& entries, Machine machine) {
     CaseProblems problems;
     for (const KeyGroup& group : key_groups())
         for (const Rule& rule : group.rules) {
             if (!has_all(settings, rule)) continue;
+            if (rule.of_machine && machine == Machine::any) continue;
             if (const Ruling objection = rule.check(settings))
                 problems.push_back(problem_with(rule.key, *objection, settings, entries));
         }

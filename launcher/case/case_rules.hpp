@@ -16,7 +16,11 @@ namespace turbidite {
 CaseProblem problem_with(const std::string& key, const Objection& objection,
                          const Settings& settings, const CaseEntries& entries);
 
-CaseProblems check_rules(const Settings& settings, const CaseEntries& entries);
+/// Whether the case must fit into this machine. One that another machine plays or has played, or
+/// whose mesh is not needed, need not.
+enum class Machine { any, this_one };
+
+CaseProblems check_rules(const Settings& settings, const CaseEntries& entries, Machine machine);
 
 /// Notes for the user about a valid case, e.g. an end that is not a whole number of windows, and
 /// the keys of `entries` that have no effect.

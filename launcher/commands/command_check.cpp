@@ -6,10 +6,12 @@
 #include <memory>
 
 #include "launcher/case/forecast/run_cost.hpp"
+#include "launcher/case/grains/packing/pouring.hpp"
 #include "launcher/commands/case_summary.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/folder/shipped_cases.hpp"
 #include "launcher/job/launch_line.hpp"
+#include "launcher/job/pour_grains.hpp"
 #include "launcher/job/prepare_run.hpp"
 #include "launcher/job/terminal.hpp"
 #include "launcher/study/study_plan.hpp"
@@ -41,6 +43,7 @@ int check(const CheckOptions& options) {
     if (is_study(options.file)) return check_study(options);
     const ResolvedCase resolved = load_case(options.file, options.overrides);
     require_programs(resolved, needed_programs(resolved.settings, find_programs()));
+    if (is_poured(resolved.settings)) pouring_case(resolved);
     fmt::print("{}valid\n", for_stdout(case_summary(resolved)));
     return static_cast<int>(ExitCode::done);
 }

@@ -100,9 +100,11 @@ int replay(const ReplayOptions& options) {
     const std::optional<std::string> checkpoint = first_checkpoint(recording);
     const std::filesystem::path kept =
         checkpoint ? kept_checkpoint(recordings, *checkpoint) : std::filesystem::path();
-    const ResolvedCase resolved = load_run_folder(recorded.root);
+    const bool needs_mesh = mesh_of_replay(side) != FluidMesh::left_out;
+    const ResolvedCase resolved =
+        load_run_folder(recorded.root, {}, needs_mesh ? Machine::this_one : Machine::any);
     LaunchSite site = this_site();
-    site.programs.scripted_fluid = mesh_of_replay(side) == FluidMesh::left_out;
+    site.programs.scripted_fluid = !needs_mesh;
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
     const auto [folder, lock] = own_run_folder(options.order, resolved.name + "-replay");
     const auto line = replay_arguments(resolved.settings, folder, site, side, recording);

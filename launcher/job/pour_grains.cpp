@@ -129,6 +129,19 @@ class WithoutReport {
                                     why, folder.root.string()));
 }
 
+ResolvedCase load_pouring(const ResolvedCase& resolved, std::int64_t ranks) {
+    std::vector<std::string> values = resolved.overrides;
+    for (std::string& change : pouring_changes(resolved)) values.push_back(std::move(change));
+    values.push_back(fmt::format("grains.ranks={}", ranks));
+    try {
+        return load_case(resolved.file, values);
+    } catch (const CaseRefused& refused) {
+        throw Failure(refused.code(),
+                      fmt::format("the grains cannot be poured, in a dry run of its own:\n{}",
+                                  refused.what()));
+    }
+}
+
 JobOutcome play_piece(const ResolvedCase& pouring, const RunFolder& folder,
                       const LaunchSite& site) {
     if (!fs::exists(folder.history()))
@@ -154,10 +167,12 @@ bool is_at_rest(const fs::path& history, double tolerance) {
     return row["kinetic_energy"] < energy_at_rest(height, tolerance);
 }
 
+ResolvedCase pouring_case(const ResolvedCase& resolved) {
+    return load_pouring(resolved, 1);
+}
+
 fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
-    std::vector<std::string> values = resolved.overrides;
-    for (std::string& change : pouring_changes(resolved)) values.push_back(std::move(change));
-    ResolvedCase pouring = load_case(resolved.file, values);
+    ResolvedCase pouring = pouring_case(resolved);
     // By what the packing depends on: another run of the same packing finds it.
     const RunFolder folder{fs::absolute(cache_folder() / case_hash(packing_text(pouring.yaml)))};
     const std::shared_ptr<RunLock> turn = own_turn(folder.root);
@@ -173,8 +188,7 @@ fs::path poured_grains(const ResolvedCase& resolved, const LaunchSite& site) {
     // on the machine.
     const std::int64_t ranks =
         in_space(pouring.settings) ? best_grains_ranks(pouring.population.size()) : 1;
-    values.push_back(fmt::format("grains.ranks={}", ranks));
-    pouring = load_case(resolved.file, values);
+    pouring = load_pouring(resolved, ranks);
     const WithoutReport without;
     while (!is_at_rest(folder.history(), tolerance)) {
         if (next_end(folder.history()) > longest)

@@ -8,6 +8,10 @@
 
 namespace turbidite {
 
+/// The case of the run that pours the grains of a poured case, dry and on one rank. Throws Failure
+/// if its grains cannot be poured so.
+ResolvedCase pouring_case(const ResolvedCase& resolved);
+
 /// The run that pours the grains of a poured case (pouring.hpp), which is played until they are at
 /// rest unless that was done before: its folder is named by the hash of its case, below
 /// XDG_CACHE_HOME or ~/.cache. One that was interrupted goes on. Throws Failure if it does not end

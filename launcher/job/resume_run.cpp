@@ -404,7 +404,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     // With the lock: no other process can be writing one.
     sets.remove_unfinished();
     const std::optional<Chosen> chosen = choose(folder, sets, say);
-    const ResolvedCase resolved = load_run_folder(folder.root, overrides);
+    const ResolvedCase resolved = load_run_folder(folder.root, overrides, Machine::this_one);
     require_path(folder, resolved.settings);
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
     if (chosen)

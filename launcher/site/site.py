@@ -22,7 +22,7 @@ CONFIGURATION = Path(__file__).resolve().parent / 'mkdocs.yml'
 REFERENCE = Path('launcher/site/api')
 API_PLACE = re.compile(r'^ +- API: .*\n', re.M)
 LINK = re.compile(r'\]\(([^)#\s:]+)(#[^)\s]*)?\)')
-PROGRAM_FAILED = 4  # exit code, docs/running.md
+BAD_INPUT, PROGRAM_FAILED = 2, 4  # exit codes, docs/running.md
 PICTURES = ('.png', '.webp', '.svg')
 
 
@@ -103,6 +103,8 @@ def without_place(sources):
 
 def build(sources, site):
     """Raises SystemExit with mkdocs' words, and NotWritable."""
+    if shutil.which('mkdocs') is None:
+        sys.exit('mkdocs is not installed: apt-get install mkdocs mkdocs-material')
     if lost := without_place(sources):
         sys.exit(f'{CONFIGURATION} has no place for {", ".join(lost)}')
     with tempfile.TemporaryDirectory() as work:
@@ -160,7 +162,13 @@ class Silent(http.server.SimpleHTTPRequestHandler):
 def show(site, port):
     """Until Ctrl-C; port 0 is a free one."""
     handler = functools.partial(Silent, directory=str(site))
-    with http.server.ThreadingHTTPServer(('127.0.0.1', port), handler) as server:
+    try:
+        server = http.server.ThreadingHTTPServer(('127.0.0.1', port), handler)
+    except OSError as error:
+        print(f'turbidite: port {port} cannot be used: {error.strerror}\n  Choose another one, or leave --port out.',
+              file=sys.stderr)
+        sys.exit(BAD_INPUT)
+    with server:
         print(f'The pages are at http://127.0.0.1:{server.server_address[1]}/ on this machine. Ctrl-C ends it.', flush=True)
         try:
             server.serve_forever()

@@ -17,6 +17,10 @@
 
 namespace turbidite {
 
+/// Cells along each axis of the fluid's box: room for the widest stencil, three layers, beside a
+/// wall.
+inline constexpr int fewest_cells = 4;
+
 /// Lengths in D.
 struct MeshRows {
     int equal = 0;                  ///< rows of height `height`, from the bottom up

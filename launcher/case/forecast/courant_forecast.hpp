@@ -9,7 +9,7 @@
 
 namespace turbidite {
 
-/// Of the fastest of: a disc that falls alone, with a drag coefficient of one or viscous, and the
+/// Of the fastest of: grains that fall alone, with a drag coefficient of one or viscous, and the
 /// grains at t = 0. Streams between grains may be several times as fast. 0 without a fluid.
 double forecast_courant(const ResolvedCase& resolved);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "coupler/keys/key_value.hpp"
+#include "coupler/protocol/scene/mesh_rows.hpp"
 #include "coupler/protocol/scene/sides.hpp"
 #include "launcher/case/case_rules.hpp"
 #include "launcher/case/keys/key_groups.hpp"
@@ -95,6 +96,12 @@ Ruling whole_cells(const Settings& s) {
                                          s.text("fluid.cells_per_diameter"), real_text(length),
                                          real_text(count)),
                              fmt::format("Use {} D.", real_text(whole / cells))};
+        if (whole < fewest_cells)
+            return Objection{
+                fmt::format("With {} cells per diameter, {} D are {} cells; the mesh needs {}.",
+                            s.text("fluid.cells_per_diameter"), real_text(length), real_text(whole),
+                            fewest_cells),
+                fmt::format("Use {} D or more.", real_text(fewest_cells / cells))};
     }
     return std::nullopt;
 }

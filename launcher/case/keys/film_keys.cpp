@@ -51,6 +51,18 @@ Ruling rough_film_is_below_the_cutoff(const Settings& s) {
         "Use a smaller roughness, for example 0.001."};
 }
 
+/// Where the surface is calibrated cells resolve thinner films (bench/film.py).
+constexpr const char* cutoff_with_shift = "1.2";
+
+void film_notes(const Settings& s, std::vector<std::string>& notes) {
+    if (has_films(s) && in_space(s) && s.real("fluid.surface_shift") == 0.0 &&
+        s.text("contact.film_cutoff") == cutoff_with_shift)
+        notes.push_back(
+            fmt::format("contact.film_cutoff = {} is that of fluid.surface_shift: 0.3; without a "
+                        "shift cells resolve films from 2 cells on",
+                        cutoff_with_shift));
+}
+
 std::string without_films(const Settings& s) {
     if (const std::string why = without_fluid(s); !why.empty()) return why;
     return is(s, "contact.film", "none") ? "with contact.film: none" : "";
@@ -71,7 +83,7 @@ KeyGroup film_keys() {
              {.name = "contact.film_cutoff",
               .type = KeyType::real,
               .unit = "cells",
-              .fallback = "1.2",
+              .fallback = cutoff_with_shift,
               .range = {.lower = 0.0, .upper = 4.0, .lower_open = true},
               .help =
                   "gap from which on the cells resolve the force of a film; in space measured with "
@@ -90,14 +102,15 @@ KeyGroup film_keys() {
                          "0.1 D.",
               .remedy = "Use 0.001; glass beads have 0.0001 to 0.001.",
               .idle = without_films}},
-        .rules = {
-            {"contact.film", {"grains.adapter", "fluid.enabled"}, adapter_has_films},
-            {"contact.film", {"grains.shape", "fluid.enabled"}, shape_has_films},
-            {"contact.solver", {"contact.film", "fluid.enabled"}, solver_has_films},
-            {"contact.dump_interval", {"contact.film", "fluid.enabled"}, files_know_films},
-            {"contact.film_roughness",
-             {"contact.film", "contact.film_cutoff", "fluid.enabled", "fluid.cells_per_diameter"},
-             rough_film_is_below_the_cutoff}}};
+        .rules = {{"contact.film", {"grains.adapter", "fluid.enabled"}, adapter_has_films},
+                  {"contact.film", {"grains.shape", "fluid.enabled"}, shape_has_films},
+                  {"contact.solver", {"contact.film", "fluid.enabled"}, solver_has_films},
+                  {"contact.dump_interval", {"contact.film", "fluid.enabled"}, files_know_films},
+                  {"contact.film_roughness",
+                   {"contact.film", "contact.film_cutoff", "fluid.enabled",
+                    "fluid.cells_per_diameter"},
+                   rough_film_is_below_the_cutoff}},
+        .notes = film_notes};
 }
 
 }  // namespace turbidite

@@ -103,7 +103,8 @@ Ruling acceleration_is_along_cyclic_sides(const Settings& s) {
     const std::vector<double> force = real_list("fluid.acceleration", s.text("fluid.acceleration"));
     for (std::size_t side = 0; side < side_count(static_cast<int>(force.size())); side += 2) {
         const char *one = box_sides[side].key, *other = box_sides[opposite(side)].key;
-        if (force.at(side / 2) != 0.0 && !is(s, one, "cyclic"))
+        // Front and back are not in the plane, and not here where their value was refused.
+        if (force.at(side / 2) != 0.0 && s.has(one) && !is(s, one, "cyclic"))
             return Objection{
                 fmt::format("{} is {}: a uniform force drives a flow between cyclic sides only.",
                             one, s.text(one)),
@@ -576,7 +577,7 @@ std::vector<Rule> rules() {
          {"fluid.enabled", "domain.size", "domain.bottom", "fluid.cells_per_diameter",
           "fluid.stretch_ratio", "fluid.stretch_largest"},
          rows_can_stretch},
-        {"fluid.cells_per_diameter", keys_of_memory(), mesh_fits_in_memory},
+        {"fluid.cells_per_diameter", keys_of_memory(), mesh_fits_in_memory, true},
         {"fluid.splitting",
          {"dimension", "fluid.enabled", "coupling.scheme", "fluid.pressure_solver",
           "fluid.viscous_solver", "fluid.decomposition", "fluid.time_scheme",

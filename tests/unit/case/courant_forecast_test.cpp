@@ -43,6 +43,13 @@ TEST_F(CourantForecast, IsThatOfAFallingSphere) {
     EXPECT_NEAR(with("fluid.reynolds=0.9"), 0.5 * 0.9 / 18.0 * 0.01 * 8.0, 1e-12);
     folder.write("fast.csv", "id,x,y,z,vz\n1,6,6,6,5\n");
     EXPECT_NEAR(with("grains.file=fast.csv"), 5.0 * 0.01 * 8.0, 1e-12);
+    // Each with its own radius and density: 2 R (rho_r - 1) = 10 * 6 times g D.
+    folder.write("ball.csv", "id,x,y,z,radius,density\n1,6,6,6,5,7\n");
+    const std::vector<std::string> inviscid = {"dimension=3", "domain.size=[12, 12, 12]",
+                                               "grains.file=ball.csv", "fluid.reynolds=1e4"};
+    EXPECT_NEAR(forecast_courant(load("", inviscid)), std::sqrt(8.0 / 3.0 * 60.0) * 0.08, 1e-9);
+    folder.write("held.csv", "id,x,y,z,motion\n1,6,6,6,fixed\n");
+    EXPECT_EQ(with("grains.file=held.csv"), 0.0);
 }
 
 // 25 u_c dt/h = 4 with dt = 0.02 t_c and D/8.

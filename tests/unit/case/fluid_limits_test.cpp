@@ -121,6 +121,25 @@ TEST_F(FluidLimits, AMeshBeyondTheMemoryIsRefusedWithBoth) {
     EXPECT_EQ(refusal("", {"fluid.enabled=false", "domain.size=[1e4, 1e4]"}), "");
 }
 
+// A run that a larger machine has played: its grains are wanted, not its mesh.
+TEST_F(FluidLimits, TheMeshOfARunFolderNeedNotFitIntoThisMachine) {
+    ResolvedCase resolved =
+        load("", {"domain.size=[10, 10]", "fluid.cells_per_diameter=1000", "limits.memory=90"});
+    const auto memory = resolved.yaml.find("memory: 90");
+    ASSERT_NE(memory, std::string::npos);
+    resolved.yaml.replace(memory, 10, "memory: 60");
+    folder.write("run/case.yaml", resolved.yaml);
+    folder.write("run/grains/initial.csv", resolved.grains_csv);
+    const auto run = folder.path() / "run";
+    EXPECT_EQ(load_run_folder(run).population.size(), resolved.population.size());
+    try {
+        load_run_folder(run, {}, Machine::this_one);
+        FAIL() << "83 GB in 60";
+    } catch (const CaseRefused& refused) {
+        EXPECT_SAYS(std::string(refused.what()), "there are 60 GB");
+    }
+}
+
 /// 20 grains in 12 x 24 D, below 30 D of a higher box.
 TEST_F(FluidLimits, StretchedRowsNeedAHeightAndRoom) {
     const auto with = [&](std::vector<std::string> sets) {

@@ -276,6 +276,17 @@ TEST_F(SpaceCase, FilmsNeedAFluidSpheresAndTheContactEngine) {
     EXPECT_EQ(refusal("", wet), "");
     const Settings s = load("", wet).settings;
     EXPECT_DOUBLE_EQ(s.real("run.film_cutoff"), 1.2 / 8.0);
+    // The default is that of the shift.
+    const auto told = [&](const std::vector<std::string>& more) {
+        const auto notes = load("", with(more)).notes;
+        return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+            return note.find("without a shift cells resolve films from 2 cells on") !=
+                   std::string::npos;
+        });
+    };
+    EXPECT_FALSE(told({"fluid.surface_shift=0.3"}));
+    EXPECT_TRUE(told({"fluid.surface_shift=0"}));
+    EXPECT_FALSE(told({"fluid.surface_shift=0", "contact.film_cutoff=2"}));
     EXPECT_SAYS(refusal("", with({"grains.adapter=standalone-md"})),
                 "standalone-md has no films of liquid between grains");
     EXPECT_SAYS(refusal("", with({"grains.adapter=external", "grains.command=my-code"})),
@@ -561,6 +572,22 @@ TEST_F(SpaceCase, GrainsOfAFluidArePouredWithoutIt) {
     EXPECT_GT(pouring.settings.real("run.size_y"), 6.0);
 }
 
+// What one rank can play and several cannot is not asked of the pouring.
+TEST_F(SpaceCase, SeveralRanksPourWhatOneRankPlays) {
+    const std::vector<std::string> poured = {"grains.generator=poured", "grains.region=[6, 9, 6]"};
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"contact.dump_interval=5", "output.timeline=true"},
+          {"grains.adapter=standalone-md", "fluid.enabled=true", "fluid.reynolds=10",
+           "fluid.cells_per_diameter=8", "fluid.splitting=marchuk-yanenko",
+           "coupling.scheme=sub-iterated"}}) {
+        const std::vector<std::string> one = with(poured, more);
+        std::vector<std::string> on_two = with(one, pouring_changes(load("", one)));
+        on_two.push_back("grains.ranks=2");
+        EXPECT_EQ(refusal("", on_two), "");
+        EXPECT_FALSE(load("", on_two).settings.flag("output.timeline"));
+    }
+}
+
 // The fluid sees it beyond its surface: it would refuse its first window.
 TEST_F(SpaceCase, ASphereThatTheFluidSeesInStretchedRowsIsRefused) {
     folder.write("g.csv", "id,x,y,z\n7,3,4.5,3\n");
@@ -585,6 +612,26 @@ TEST_F(SpaceCase, EveryHostPlaysIt) {
         EXPECT_EQ(refusal("", {"grains.adapter=" + adapter}), "");
 }
 
+// A rule that reads a side whose value was refused would end with "no key".
+TEST_F(SpaceCase, AMisspeltSideIsToldWhateverReadsIt) {
+    EXPECT_SAYS(
+        refusal("", {"fluid.enabled=true", "fluid.reynolds=10", "fluid.cells_per_diameter=8",
+                     "fluid.acceleration=[0, 0, 0.1]", "domain.front=periodic"}),
+        "domain.front = periodic");
+}
+
+TEST_F(SpaceCase, TheFluidNeedsFourCellsAlongEachAxis) {
+    folder.write("g.csv", "id,x,y,z\n1,3,3,0.25\n");
+    const auto with_depth = [&](const char* depth) {
+        return refusal("", {"fluid.enabled=true", "fluid.reynolds=10", "grains.file=g.csv",
+                            "fluid.cells_per_diameter=8", "domain.front=free", "domain.back=free",
+                            std::string("domain.size=[12, 10, ") + depth + "]"});
+    };
+    EXPECT_SAYS(with_depth("0.375"), "0.375 D are 3 cells; the mesh needs 4.");
+    EXPECT_SAYS(with_depth("0.375"), "Use 0.5 D or more.");
+    EXPECT_EQ(with_depth("0.5"), "");
+}
+
 TEST_F(SpaceCase, SidesComeInPairsAndRegionsInTheBox) {
     EXPECT_SAYS(refusal("", {"domain.back=wall"}), "Cyclic sides come in pairs");
     EXPECT_SAYS(refusal("", {"domain.front=inflow"}), "Without a fluid nothing enters.");
@@ -596,7 +643,7 @@ TEST_F(SpaceCase, SidesComeInPairsAndRegionsInTheBox) {
 
 TEST_F(SpaceCase, DenseRandomPackingsHaveToBePoured) {
     // 720 D^3: 0.45 of it are 618 spheres.
-    EXPECT_SAYS(refusal("", {"grains.count=620"}), "Pour them");
+    EXPECT_SAYS(refusal("", {"grains.count=620"}), "Use grains.generator: poured");
     const ResolvedCase dense = load("", {"grains.count=600"});
     EXPECT_EQ(dense.population.size(), 600u);
 }
@@ -661,6 +708,7 @@ TEST(RandomSpacePacking, RefusesBillionsBeforeItDrawsThem) {
     const PackingRequest request{
         .box = box, .count = 3'000'000'000'000, .forms = &forms, .size_ratio = 1.5};
     EXPECT_SAYS(random_space_packing(request).refusal, "grains.generator: lattice");
+    EXPECT_SAYS(random_space_packing(request).refusal, "Use grains.generator: poured");
     EXPECT_SAYS(poured_stand_in(request).refusal, "fewer grains");
 }
 

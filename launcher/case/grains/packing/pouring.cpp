@@ -160,9 +160,12 @@ std::vector<std::string> pouring_changes(const ResolvedCase& resolved) {
         if (settings.has(file)) changes.push_back(std::string(file) + "=~");
     append(changes, own_friction(settings));
     append(changes, own_scales(resolved));
-    for (const char* plain : {"time.step=0.01", "time.end=10", "output.interval=1",
-                              "output.probes=~", "output.slices=none", "checkpoint.interval=5",
-                              "checkpoint.keep=1", "coupling.recording=none"})
+    for (const char* plain :
+         {"time.step=0.01", "time.end=10", "output.interval=1", "output.probes=~",
+          "output.slices=none", "checkpoint.interval=5", "checkpoint.keep=1",
+          "coupling.recording=none",
+          // Several ranks may pour, which cannot do all that one can.
+          "coupling.scheme=auto", "contact.dump_interval=~", "output.timeline=false"})
         changes.emplace_back(plain);
     return changes;
 }

@@ -105,10 +105,13 @@ std::string words_of(const PackingRegion& region) {
 
 std::string too_dense_for_random(const PackingRequest& request, double fraction) {
     return fmt::format(
-        "They fill {:.3g} of {}; at random places at most {} are possible. Pour them: "
-        "let fewer per volume fall in a higher box, and start from that run with run --from. Or "
-        "ask for fewer grains, or use grains.generator: lattice.",
-        fraction, words_of(request.filled()), largest_random_fraction);
+        "They fill {:.3g} of {}; at random places at most {} are possible. {} Or ask for fewer "
+        "grains, or use grains.generator: lattice.",
+        fraction, words_of(request.filled()), largest_random_fraction,
+        request.filled().cylinder
+            ? "Pour them: let fewer per volume fall in a higher box, and start from that run with "
+              "run --from."
+            : "Use grains.generator: poured, which lets them fall into the region first.");
 }
 
 std::string spheres_do_not_fit(const PackingRequest& request) {
