@@ -130,7 +130,10 @@ def pair_cells(pair):
 def is_telling(pair, runs):
     """Whether the two groups have the same packing, or the same adapter and variant."""
     compacity = {group: value for value, groups in runs.items() for group in groups}
-    first, second = pair['first'], pair['second']
+    # A group of one seed is named by its folder.
+    of_folder = {Path(folder).name: group for groups in runs.values() for group, folders in groups.items()
+                 for folder in folders}
+    first, second = (of_folder.get(pair[name], pair[name]) for name in ('first', 'second'))
     rest = lambda group: group.replace(f'-{compacity[group]}', '', 1)
     return compacity[first] == compacity[second] or rest(first) == rest(second)
 

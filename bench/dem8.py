@@ -6,7 +6,8 @@ of other codes (bench/dem8_silo.csv), and the grains of the drum.
     bench/dem8.py silo RUN [FROM TO]    of configs/silo.yaml: spheres above the lip since the gate opened, and the flow, ours
                                         and theirs from FROM to TO [s] as well
     bench/dem8.py drum RUN              of configs/drum.yaml: M1 in two quarters of the drum
-    bench/dem8.py drum-grains [SHARE]   prints the grains of a SHARE of the drum's depth (1/5) as CSV
+    bench/dem8.py drum-grains [SHARE]   prints the grains of a SHARE of the drum's depth (1/5) as CSV: of all of it, 1,
+                                        between end walls, of less between cyclic sides
 """
 import csv
 import random
@@ -20,7 +21,6 @@ sys.path.insert(0, str(ROOT / 'launcher/report'))
 
 import grain_files
 import run_data
-from space import walls
 
 STEADY = (1.0, 3.0)  # s, between which the published flow is taken
 
@@ -56,7 +56,7 @@ def silo(run, between=None):
 
 def silo_marks(run):
     """(y of the lip [m], time at which the gate begins to move [s], name of the orifice in the published counts)."""
-    gate = next(wall for wall in walls.plates.walls_of(run) if wall['motion'] == 'gate')
+    gate = next(wall for wall in grain_files.walls_of(run) if wall['motion'] == 'gate')
     table = np.array([float(v) for v in run.case['domain.motions.gate.table'].strip('[]').split(',')]).reshape(-1, 4)
     still = table[(table[:, 1:] == 0.0).all(axis=1), 0].max()
     radius = float(gate['r2']) * run.scale('D')
@@ -84,30 +84,43 @@ def drum(run):
 
 
 def drum_grains(share):
-    """Rows from below, M2 first; no grain touches another one or the drum."""
+    """Rows from below, M2 first; no grain reaches into another one, the drum or, where the share is 1, its end walls."""
     numbers, depth = random.Random(1), share * DRUM_DEPTH
     grains, level = [], DRUM_AXIS - DRUM_RADIUS
     for count, radius, density, material in DRUM_LAYERS:
-        left, spacing, along = round(share * count), 2.0 * radius * SPACING, int(depth / (2.0 * radius))
-        row = 0
+        left, spacing, row = round(share * count), 2.0 * radius * SPACING, 0
         while left > 0:
             y = level + (row + 0.5) * spacing
             half = np.sqrt(max(0.0, (DRUM_RADIUS - radius * SPACING)**2 - (abs(y - DRUM_AXIS) + 0.5 * spacing)**2))
-            across = int(2.0 * half / spacing)
+            across, places = int(2.0 * half / spacing), along_axis(radius, depth, row, share == 1.0)
+            if y > DRUM_AXIS and across == 0:
+                raise ValueError(f'the drum is full, and {left} spheres of {material} are left')
             for i in range(across):
-                for k in range(min(along, left)):
+                for z in places[:left]:
                     shift = [UNEVEN * radius * numbers.uniform(-1, 1) for _ in range(3)]
-                    grains.append((DRUM_AXIS + (i + 0.5 - 0.5 * across) * spacing + shift[0], y + shift[1],
-                                   ((k + 0.5 * (row % 2 + 1)) * depth / along) % depth, radius, density, material))
-                left -= min(along, left)
+                    grains.append((DRUM_AXIS + (i + 0.5 - 0.5 * across) * spacing + shift[0], y + shift[1], z, radius,
+                                   density, material))
+                left -= min(len(places), left)
             row += 1
         level += row * spacing
     return grains
 
 
+def along_axis(radius, depth, row, walls_at_ends):
+    """Places of the centres of a row; every second row lies between those of the one below."""
+    count = int(depth / (2.0 * radius))
+    if count == 0:
+        raise ValueError(f'a depth of {depth:g} D has no room for spheres of radius {radius:g} D')
+    if row % 2 == 0:
+        return [(k + 0.5) * depth / count for k in range(count)]
+    # Between cyclic sides the last place is on both of them.
+    return [(k + 1.0) % count * depth / count for k in range(count - 1 if walls_at_ends else count)]
+
+
 def print_grains(share):
+    grains = drum_grains(share)
     print('id,x,y,z,radius,density,material')
-    for number, (x, y, z, radius, density, material) in enumerate(drum_grains(share)):
+    for number, (x, y, z, radius, density, material) in enumerate(grains):
         print(f'{number},{x:.3f},{y:.3f},{z:.3f},{radius:g},{density:g},{material}')
 
 
@@ -117,7 +130,10 @@ def main(words):
     elif words[:1] == ['drum'] and len(words) == 2:
         drum(run_data.load_run(words[1]))
     elif words and words[0] == 'drum-grains' and len(words) <= 2:
-        print_grains(float(words[1]) if len(words) == 2 else 0.2)
+        try:
+            print_grains(float(words[1]) if len(words) == 2 else 0.2)
+        except ValueError as error:
+            sys.exit(f'drum-grains: {error}')
     else:
         sys.exit(__doc__)
 

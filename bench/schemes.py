@@ -7,6 +7,7 @@
 Runs `./turbidite run` once per row, unless the row's run folder exists, and compares the mean histories with those of
 `joint` at the smallest step. Times are wall times of this machine, and comparable only within one table."""
 import argparse
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -55,13 +56,18 @@ def arguments():
 def play(options, scheme, step):
     """The run of one row, which is started only if it is not there."""
     folder = Path(options.out) / f'{scheme.replace(", ", "-")}-{step}'
-    if not (folder / 'report.html').exists():
+    if not is_done(folder):
         command = [options.program, 'run', options.case, '--out', str(folder), '--force']
         for setting in SCHEMES[scheme] + [f'time.step={step}'] + options.set:
             command += ['--set', setting]
         print(' '.join(command), file=sys.stderr, flush=True)
         subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
     return Run(folder)
+
+
+def is_done(folder):
+    record = folder / 'run.json'
+    return record.exists() and json.loads(record.read_text()).get('status') == 'done'
 
 
 def difference(run, reference):

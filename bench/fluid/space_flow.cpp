@@ -207,14 +207,16 @@ double superficial_velocity(const Packing& packing, const StokesCase& of, const 
     // of the cube, or of a pore of a packing, 0.3 D wide.
     const double width = packing.centres.size() > 1 ? 0.3 : packing.length;
     const int check = std::max(5, static_cast<int>(0.05 * width * width / flow.step));
-    double before = 0.0, now = 0.0;
+    double now = 0.0;
     for (int window = 0; window < 200000; ++window) {
         play.next(grains);
         if (window % check != check - 1) continue;
-        before = std::exchange(now, play.mean_velocity()[0]);
-        if (std::abs(now - before) < 1e-5 * std::abs(now)) break;
+        const double before = std::exchange(now, play.mean_velocity()[0]);
+        if (std::abs(now - before) < 1e-5 * std::abs(now)) return now / flow.acceleration[0];
     }
-    return now / flow.acceleration[0];
+    throw std::runtime_error(
+        "the flow is not steady after 200,000 windows: use a larger "
+        "--viscous-number");
 }
 
 /// Velocities at random places of the packing in the grid.
@@ -349,18 +351,27 @@ int main(int argc, char** argv) {
     CLI::App* settles = app.add_subcommand("settle", "a sphere settles");
     settles->add_option("--cells-per-diameter", settle.per_diameter);
     settles->add_option("--width", settle.width, "of the cyclic box, in D");
-    settles->add_option("--height", settle.height, "in D");
+    settles
+        ->add_option("--height", settle.height,
+                     "in D; it begins 3 D below the top, and is measured between the middle and "
+                     "3 D above the floor")
+        ->check(CLI::Range(9.0, 1e4));
     settles->add_option("--viscosity", settle.viscosity, "in D sqrt(g D)");
     settles->add_option("--density", settle.density, "of the sphere over that of the fluid");
     settles->add_option("--step", settle.step, "in sqrt(D/g)");
     settles->add_option("--shift", settle.shift, "of the surface, in cells");
     settles->add_option("--splitting", settle.splitting);
     CLI11_PARSE(app, argc, argv);
-    if (*arrays) print_array(fraction, stokes, offsets);
-    if (*packings)
-        print_permeability(
-            kind == "fcc" ? face_centred(fraction) : random_packing(fraction, count, seed), stokes,
-            offsets);
-    if (*settles) print_settling(settle);
+    try {
+        if (*arrays) print_array(fraction, stokes, offsets);
+        if (*packings)
+            print_permeability(
+                kind == "fcc" ? face_centred(fraction) : random_packing(fraction, count, seed),
+                stokes, offsets);
+        if (*settles) print_settling(settle);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "space-flow: %s\n", error.what());
+        return 1;
+    }
     return 0;
 }

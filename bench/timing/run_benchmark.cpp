@@ -63,6 +63,9 @@ void measure(Entry& entry, Site& site) {
         const double value = entry.measured.value;
         if (!(std::isfinite(value) && value > 0.0))
             entry.reason = fmt::format("the result {} is not a valid measurement", value);
+    } catch (const Failure& failure) {
+        if (failure.code() == ExitCode::interrupted) throw;
+        entry.reason = failure.what();
     } catch (const std::exception& error) {
         entry.reason = error.what();
     }
@@ -124,6 +127,7 @@ void write_json(const std::vector<Entry>& entries, const std::filesystem::path& 
 
 bool run_benchmarks(const BenchOrder& order) {
     std::vector<Entry> entries = entries_of(order);
+    if (!order.json.empty()) write_json({}, order.json);  // refused now, not after an hour
     Site site(order.quick);
     double load = 0.0;  // of the machine before the benchmark
     ::getloadavg(&load, 1);

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 
@@ -25,6 +26,12 @@ std::string into_log(const std::vector<std::string>& line, const fs::path& log) 
     return shell_line(line) + " >" + shell_line({log.string()}) + " 2>&1 </dev/null";
 }
 
+/// The program ended for Ctrl-C or SIGTERM, or its shell says so.
+bool was_interrupted(int status) {
+    if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM;
+    return WEXITSTATUS(status) == 128 + SIGINT || WEXITSTATUS(status) == 128 + SIGTERM;
+}
+
 }  // namespace
 
 Site::Site(bool quick) : quick_(quick), programs_(find_programs()), folder_("bench") {
@@ -38,7 +45,11 @@ fs::path Site::source(const std::string& file) const {
 
 void Site::run(const std::vector<std::string>& line, const std::string& log) const {
     std::fflush(nullptr);
-    demand_success(line.front(), std::system(into_log(line, folder() / log).c_str()), log);
+    const int status = std::system(into_log(line, folder() / log).c_str());
+    // system() ignores Ctrl-C: it is meant for all of this.
+    if (was_interrupted(status))
+        throw Failure(ExitCode::interrupted, "interrupted; nothing more is measured");
+    demand_success(line.front(), status, log);
 }
 
 double Site::peak_memory_of(const std::vector<std::string>& line, const std::string& log) const {
