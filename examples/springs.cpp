@@ -34,8 +34,12 @@ class Springs : public GrainsAdapter {
         return hello;
     }
 
-    // Nothing beyond the least: cases with friction, free sides, ... are refused.
-    std::optional<Abilities> abilities() const override { return Abilities{}; }
+    // Cases with friction, free sides, ... are refused.
+    std::optional<Abilities> abilities() const override {
+        Abilities able;
+        able.restitution = true;  // run.md_damping is made for it
+        return able;
+    }
 
     Motion initialise(const Settings& s, const ShapeTable&,
                       const std::vector<GrainState>& grains) override {

@@ -20,7 +20,7 @@ def turned(q, turn):
 class Springs:
     name, version, host_code, native_substeps = 'springs-py', '1.0', 'numpy', True
     shapes, dimensions = ['disc', 'sphere'], (2, 3)
-    knows = []                                                      # cases with friction, free sides, ... are refused
+    knows = ['restitution']                                         # cases with friction, free sides, ... are refused
 
     def initialise(self, settings, shapes, grains):
         self.axes = 3 if settings.get('run.dimension') == '3' else 2

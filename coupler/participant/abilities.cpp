@@ -5,6 +5,8 @@
 #include <initializer_list>
 
 #include "coupler/participant/turbidite.h"
+#include "coupler/protocol/scene/plates.hpp"
+#include "coupler/protocol/scene/space_walls.hpp"
 
 namespace turbidite {
 namespace {
@@ -13,16 +15,12 @@ bool is_text(const Settings& s, const char* key, const char* plain) {
     return s.has(key) && s.text(key) != plain;
 }
 
-bool is_number(const Settings& s, const char* key) {
-    return s.has(key) && s.real(key) != 0.0;
-}
-
 bool is_given(const Settings& s, const char* key) {
     return s.has(key) && !s.text(key).empty();
 }
 
-std::string named(const Settings& s, const char* key) {
-    return std::string(key) + " = " + s.text(key);
+std::string named(const Settings& s, const std::string& key) {
+    return key + " = " + s.text(key);
 }
 
 std::string open_side(const Settings& s) {
@@ -33,14 +31,77 @@ std::string open_side(const Settings& s) {
     return {};
 }
 
-/// The first law of contacts beyond Coulomb friction.
+/// A coefficient of contact.*, contact.materials.NAME.* or contact.pairs.A-B.* that is not zero.
+std::string coefficient(const Settings& s, const std::string& name) {
+    const auto is_meant = [&](const std::string& key) {
+        const bool ends = key.size() > name.size() && key[key.size() - name.size() - 1] == '.' &&
+                          key.compare(key.size() - name.size(), name.size(), name) == 0;
+        return ends && (key == "contact." + name || key.rfind("contact.materials.", 0) == 0 ||
+                        key.rfind("contact.pairs.", 0) == 0);
+    };
+    for (const auto& [key, value] : s.entries())
+        if (is_meant(key) && s.real(key) != 0.0) return named(s, key);
+    return {};
+}
+
+/// The first law of contacts beyond Coulomb friction and restitution.
 std::string law(const Settings& s) {
     if (is_text(s, "contact.law", "coulomb")) return named(s, "contact.law");
     for (const char* kind : {"contact.adhesion", "contact.film"})
         if (is_text(s, kind, "none")) return named(s, kind);
-    for (const char* number : {"contact.restitution", "contact.restitution_tangential",
-                               "contact.rolling_friction", "contact.torsion_friction"})
-        if (is_number(s, number)) return named(s, number);
+    for (const char* number : {"restitution_tangential", "rolling_friction", "torsion_friction"})
+        if (std::string found = coefficient(s, number); !found.empty()) return found;
+    return {};
+}
+
+/// A wall inside the box.
+struct InnerWall {
+    GrainId id = 0;
+    double friction = 0.0;
+    bool moves = false;
+};
+
+template <class Walls>
+std::vector<InnerWall> inner_walls(const Walls& walls) {
+    std::vector<InnerWall> result;
+    for (const auto& wall : walls) {
+        const Twist rate = wall.motion->rate(0.0, 1.0);
+        result.push_back({wall.id, wall.friction, rate.velocity != Vec3{} || rate.spin != Vec3{}});
+    }
+    return result;
+}
+
+std::vector<InnerWall> inner_walls(const Settings& s) {
+    if (!is_given(s, "run.walls")) return {};
+    const bool in_space = s.has("run.dimension") && s.integer("run.dimension") == 3;
+    return in_space ? inner_walls(space_walls_of(s)) : inner_walls(plates_of(s));
+}
+
+std::string beyond_walls(const Abilities& able, const Settings& s) {
+    if (!able.inner_walls && is_given(s, "run.walls"))
+        return "domain.walls_file: it knows no walls inside the box";
+    if (!able.moving_walls && is_given(s, "run.wall_motions"))
+        return "domain.motions: it knows no walls that move";
+    if (able.moving_walls && able.friction) return {};
+    for (const InnerWall& wall : inner_walls(s)) {
+        const std::string of = "domain.walls_file: wall " + std::to_string(wall.id);
+        if (!able.moving_walls && wall.moves) return of + " moves: it knows no walls that move";
+        if (!able.friction && wall.friction != 0.0)
+            return of + " has friction: it knows no friction";
+    }
+    return {};
+}
+
+std::string beyond_contacts(const Abilities& able, const Settings& s) {
+    const bool materials = is_given(s, "run.materials") ||
+                           (s.has("run.side_material") && s.integer("run.side_material") != 0);
+    if (!able.materials && materials) return "contact.materials: it knows one material";
+    if (const std::string one = coefficient(s, "friction"); !able.friction && !one.empty())
+        return one + ": it knows no friction";
+    if (const std::string one = coefficient(s, "restitution"); !able.restitution && !one.empty())
+        return one + ": it knows no restitution";
+    if (const std::string one = law(s); !able.laws && !one.empty())
+        return one + ": it does not know this law of contacts";
     return {};
 }
 
@@ -52,23 +113,16 @@ std::string beyond(const Abilities& able, const Settings& s,
         return named(s, "grains.ranks") + ": it runs on one rank";
     if (const std::string side = open_side(s); !able.open_sides && !side.empty())
         return side + ": it knows walls on all sides only";
-    if (!able.inner_walls && is_given(s, "run.walls"))
-        return "domain.walls_file: it knows no walls inside the box";
-    if (!able.moving_walls && is_given(s, "run.wall_motions"))
-        return "domain.motions: it knows no walls that move";
     const auto held = std::find_if(grains.begin(), grains.end(),
                                    [](const GrainState& grain) { return grain.prescribed; });
     if (!able.given_motions && held != grains.end())
         return "grain " + std::to_string(held->id) +
-               " has a given motion: it moves free grains "
-               "only";
-    if (!able.materials && (is_given(s, "run.materials") || is_number(s, "run.side_material")))
-        return "contact.materials: it knows one material";
-    if (!able.friction && is_number(s, "contact.friction"))
-        return named(s, "contact.friction") + ": it knows no friction";
-    if (const std::string other = law(s); !able.laws && !other.empty())
-        return other + ": it does not know this law of contacts";
-    return {};
+               " has a given motion: it moves free grains only";
+    if (!able.contact_positions && is_text(s, "coupling.positions", "corrected") &&
+        is_text(s, "coupling.scheme", "joint"))
+        return named(s, "coupling.positions") + ": it moves with the corrected velocities";
+    if (const std::string reason = beyond_walls(able, s); !reason.empty()) return reason;
+    return beyond_contacts(able, s);
 }
 
 Abilities abilities_of(std::uint64_t bits) {
@@ -80,7 +134,9 @@ Abilities abilities_of(std::uint64_t bits) {
             .given_motions = has(TURBIDITE_KNOWS_GIVEN_MOTIONS),
             .materials = has(TURBIDITE_KNOWS_MATERIALS),
             .friction = has(TURBIDITE_KNOWS_FRICTION),
-            .laws = has(TURBIDITE_KNOWS_LAWS)};
+            .restitution = has(TURBIDITE_KNOWS_RESTITUTION),
+            .laws = has(TURBIDITE_KNOWS_LAWS),
+            .contact_positions = has(TURBIDITE_KNOWS_CONTACT_POSITIONS)};
 }
 
 }  // namespace turbidite

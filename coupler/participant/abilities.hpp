@@ -13,17 +13,19 @@
 
 namespace turbidite {
 
-/// Beyond free grains of one material that touch without friction, between walls at rest, on one
-/// rank.
+/// Beyond free grains of one material that touch without friction and restitution, between walls at
+/// rest, on one rank.
 struct Abilities {
-    bool ranks = false;          ///< grains.ranks above 1
-    bool open_sides = false;     ///< sides that are free or cyclic
-    bool inner_walls = false;    ///< walls inside the box: run.walls
-    bool moving_walls = false;   ///< sides or walls inside that move: run.wall_motions
-    bool given_motions = false;  ///< grains that keep their velocity: GrainState::prescribed
-    bool materials = false;      ///< run.materials and run.side_material
-    bool friction = false;       ///< contact.friction
-    bool laws = false;           ///< restitution, adhesion, rolling and torsion, contact.law
+    bool ranks = false;              ///< grains.ranks above 1
+    bool open_sides = false;         ///< sides that are free or cyclic
+    bool inner_walls = false;        ///< walls inside the box: run.walls
+    bool moving_walls = false;       ///< those with velocities, and run.wall_motions of any wall
+    bool given_motions = false;      ///< grains that keep their velocity: GrainState::prescribed
+    bool materials = false;          ///< run.materials and run.side_material
+    bool friction = false;           ///< contact.friction, and that of materials, pairs and walls
+    bool restitution = false;        ///< contact.restitution, and that of materials and pairs
+    bool laws = false;               ///< adhesion, rolling and torsion, films, contact.law
+    bool contact_positions = false;  ///< coupling.positions: contact
 };
 
 /// Why the code must refuse a case, naming the key; empty if it can do what the case asks for.

@@ -167,8 +167,8 @@ void* turbidite_room(turbidite_bytes* state, size_t size);
 #define TURBIDITE_BOTH_DIMENSIONS 23
 
 /** turbidite_adapter::knows: what a program can do beyond free grains of one material that touch
- * without friction, between walls at rest, on one rank. Added up by `|`; TURBIDITE_KNOWS_NO_MORE
- * alone is nothing beyond. */
+ * without friction and restitution, between walls at rest, on one rank. Added up by `|`;
+ * TURBIDITE_KNOWS_NO_MORE alone is nothing beyond. */
 #define TURBIDITE_KNOWS_NO_MORE 1        /**< the least */
 #define TURBIDITE_KNOWS_RANKS 3          /**< grains.ranks above 1 */
 #define TURBIDITE_KNOWS_OPEN_SIDES 5     /**< sides that are free or cyclic */
@@ -177,7 +177,9 @@ void* turbidite_room(turbidite_bytes* state, size_t size);
 #define TURBIDITE_KNOWS_GIVEN_MOTIONS 33 /**< grains that keep their velocity: `prescribed` */
 #define TURBIDITE_KNOWS_MATERIALS 65     /**< run.materials and run.side_material */
 #define TURBIDITE_KNOWS_FRICTION 129     /**< contact.friction */
-#define TURBIDITE_KNOWS_LAWS 257         /**< restitution, adhesion, rolling, contact.law */
+#define TURBIDITE_KNOWS_RESTITUTION 257  /**< contact.restitution */
+#define TURBIDITE_KNOWS_LAWS 513         /**< adhesion, rolling, torsion, films, contact.law */
+#define TURBIDITE_KNOWS_CONTACT_POSITIONS 1025 /**< coupling.positions: contact */
 
 /** A granular code: what it is and its functions. A program sets what it has and leaves the rest
  * zero.

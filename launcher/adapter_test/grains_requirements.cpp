@@ -162,7 +162,7 @@ Finding loses_grains(const Candidate& candidate, const std::filesystem::path& fo
     if (left != 2.0)
         return {Grade::failed,
                 fmt::format("{} grains at the end, 2 expected: one crosses a free side. A program "
-                            "that cannot lose grains refuses free sides in initialise",
+                            "that cannot lose grains refuses free sides (docs/write-an-adapter.md)",
                             left)};
     return {Grade::met, "one grain left and was counted"};
 }
@@ -205,7 +205,7 @@ Finding same_on_two_ranks(const Candidate& candidate, const std::string& name,
                                          {"grains.ranks=2"}, round_off, folder);
     if (!shared.done()) return finding;
     if (finding.grade == Grade::failed)
-        finding.text += ". A program for one rank refuses grains.ranks = 2 in initialise";
+        finding.text += ". A program for one rank refuses grains.ranks = 2";
     const auto moved = grains_that_moved(shared.recording);
     finding.text += fmt::format(", {} grains changed their rank", moved.size());
     return finding;

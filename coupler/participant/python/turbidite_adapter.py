@@ -26,8 +26,9 @@ to change; `settings` is a Settings, `shapes` a list of Shape (kind, vertices), 
 write_output). An exception ends the run for all participants with its text: exit code 4, or 6 for PhysicsRefused; one in
 `save` costs this checkpoint only.
 
-`knows` lists what the program can do beyond free grains of one material that touch without friction, between walls at rest,
-on one rank: names of KNOWS. Cases that ask for more are then refused, naming the key. Without it `initialise` has to.
+`knows` lists what the program can do beyond free grains of one material that touch without friction and restitution,
+between walls at rest, on one rank: names of KNOWS. Cases that ask for more are then refused, naming the key. Without it
+`initialise` has to.
 
 Everything passes through the C interface, turbidite.h, in libturbidite.so.
 """
@@ -98,7 +99,7 @@ Window = collections.namedtuple('Window', 'index time step write_output')
 
 # TURBIDITE_KNOWS_* of turbidite.h.
 KNOWS = {'ranks': 3, 'open_sides': 5, 'inner_walls': 9, 'moving_walls': 17, 'given_motions': 33, 'materials': 65,
-         'friction': 129, 'laws': 257}
+         'friction': 129, 'restitution': 257, 'laws': 513, 'contact_positions': 1025}
 
 
 class PhysicsRefused(Exception):

@@ -144,7 +144,8 @@ TEST(PoreVoxels, HowTheBoxIsCutChangesNothing) {
     for (SolidBall& ball : balls) ball.centre[1] += 0.3 * std::sin(7.0 * ball.centre[0]);
     balls.push_back({{3, 3, -0.4}, 0.8});  // across a cyclic side, and larger
     const double side = 4.0 * std::numbers::sqrt2;
-    for (const Vec3& period : {Vec3{}, Vec3{0, 0, side}, Vec3{side, 0, side + 20.0}}) {
+    for (const Vec3& period : {Vec3{}, Vec3{0, 0, side}, Vec3{side, 0, side + 20.0},
+                               Vec3{side + 20.0, 0, side}, Vec3{0, side + 20.0, 0}}) {
         const double whole = pore_volume(balls, 1.0, period, 1000000);
         EXPECT_GT(whole, 10.0);
         for (const std::int64_t longest : {150, 61, 44, 23})
