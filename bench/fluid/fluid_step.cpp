@@ -181,7 +181,7 @@ class Profile {
 };
 
 Sample run(const Options& options, FluidRanks& ranks) {
-    const ResolvedCase resolved = load_run_folder(options.run);
+    const ResolvedCase resolved = load_run_folder(options.run, {}, Machine::this_one);
     FoamAdapter fluid(RunFolder{options.run}.fluid());
     ranks.initialise(fluid, resolved.settings, resolved.shapes);
     Player player(options, resolved, fluid, ranks);

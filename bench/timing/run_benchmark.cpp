@@ -22,7 +22,7 @@ struct Entry {
     const Figure* figure = nullptr;
     std::string command;
     Measured measured = {};
-    std::string reason = {};  // why there is no value
+    std::string reason = "not measured";  // why there is no value
 };
 
 bool wanted(const std::vector<std::string>& names, const std::string& name) {
@@ -60,12 +60,13 @@ void measure(Entry& entry, Site& site) {
     fmt::print(stderr, "{}: {}\n", entry.figure->name, entry.figure->what);
     try {
         entry.measured = entry.figure->measure(site);
+        entry.reason.clear();
         const double value = entry.measured.value;
         if (!(std::isfinite(value) && value > 0.0))
             entry.reason = fmt::format("the result {} is not a valid measurement", value);
     } catch (const Failure& failure) {
-        if (failure.code() == ExitCode::interrupted) throw;
         entry.reason = failure.what();
+        if (failure.code() == ExitCode::interrupted) throw;
     } catch (const std::exception& error) {
         entry.reason = error.what();
     }
@@ -112,31 +113,46 @@ nlohmann::ordered_json json_of(const Entry& entry) {
     return json;
 }
 
+Failure cannot_be_written(const std::filesystem::path& file) {
+    return Failure(
+        ExitCode::bad_input,
+        fmt::format("--json = {} cannot be written: choose another file", file.string()));
+}
+
+void require_writable(const std::filesystem::path& file) {
+    if (!std::ofstream(file, std::ios::app)) throw cannot_be_written(file);
+}
+
 void write_json(const std::vector<Entry>& entries, const std::filesystem::path& file) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     for (const Entry& entry : entries) json[entry.figure->name] = json_of(entry);
     std::ofstream stream(file);
     stream << json.dump(2) << "\n";
-    if (!stream.flush())
-        throw Failure(
-            ExitCode::bad_input,
-            fmt::format("--json = {} cannot be written: choose another file", file.string()));
+    if (!stream.flush()) throw cannot_be_written(file);
 }
 
 }  // namespace
 
 bool run_benchmarks(const BenchOrder& order) {
     std::vector<Entry> entries = entries_of(order);
-    if (!order.json.empty()) write_json({}, order.json);  // refused now, not after an hour
+    if (!order.json.empty()) require_writable(order.json);  // not after an hour
     Site site(order.quick);
     double load = 0.0;  // of the machine before the benchmark
     ::getloadavg(&load, 1);
     fmt::print("machine: {} processors, load {:.1f}, memory triad {:.1f} GB/s on one core\n",
                ::sysconf(_SC_NPROCESSORS_ONLN), load, 1e-9 * memory_triad());
     std::fflush(stdout);
-    for (Entry& entry : entries) measure(entry, site);
-    fmt::print("{}", table(entries));
-    if (!order.json.empty()) write_json(entries, order.json);
+    const auto tell = [&] {
+        fmt::print("{}", table(entries));
+        if (!order.json.empty()) write_json(entries, order.json);
+    };
+    try {
+        for (Entry& entry : entries) measure(entry, site);
+    } catch (const Failure&) {  // interrupted
+        tell();
+        throw;
+    }
+    tell();
     return std::all_of(entries.begin(), entries.end(),
                        [](const Entry& entry) { return entry.reason.empty(); });
 }
