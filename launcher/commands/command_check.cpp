@@ -32,6 +32,7 @@ int check_study(const CheckOptions& options) {
     for (const PlannedRun& run : plan) {
         const ResolvedCase resolved = run.resolve();
         require_programs(resolved, needed_programs(resolved.settings, find_programs()));
+        if (is_poured(resolved.settings)) pouring_case(resolved);
         fmt::print("  {:>7}  {}\n", rough_time(run.seconds), run.path());
         all.push_back(&run);
     }

@@ -159,20 +159,25 @@ def first_extent(run):
 
 def in_lying_pipe(run):
     """Whether a round wall whose axis is not vertical was around the grains at first."""
-    extent = first_extent(run)
-    return extent is not None and any(
-        wall.get('kind') in ('cylinder', 'cone') and is_lying_around(wall, *extent) for wall in grain_files.walls_of(run))
+    walls = [wall for wall in grain_files.walls_of(run) if wall.get('kind') in ('cylinder', 'cone')]
+    grains = grain_files.first_grains(run) if walls else None
+    free = None if grains is None else grains.free()
+    return free is not None and len(free.radii) > 0 and any(
+        is_lying_around(wall, free.positions() / run.scale('D')) for wall in walls)
 
 
-def is_lying_around(wall, low, high):
+def is_lying_around(wall, places):
+    """Around all of them [D]."""
     place, axis = (np.array([float(wall.get(name) or 0.0) for name in names])
                    for names in (('x', 'y', 'z'), ('ax', 'ay', 'az')))
     if abs(axis[1]) > 0.7 * np.linalg.norm(axis):
         return False
     along = axis / np.linalg.norm(axis)
-    arm = 0.5 * (low + high) - place
+    arms = places - place
+    reach = arms @ along
     radius = max(float(wall.get(name) or 0.0) for name in ('r1', 'r2'))
-    return 0.0 <= arm @ along <= np.linalg.norm(axis) and np.linalg.norm(arm - arm @ along * along) < radius
+    off_axis = np.linalg.norm(arms - reach[:, None] * along, axis=1)
+    return bool(((reach >= 0.0) & (reach <= np.linalg.norm(axis)) & (off_axis < radius)).all())
 
 
 def load_run(folder):

@@ -11,6 +11,7 @@
 #include "coupler/output/measures/courant_limit.hpp"
 #include "coupler/rigid/vec3.hpp"
 #include "launcher/case/forecast/prescribed_speed.hpp"
+#include "launcher/case/grains/packing/pouring.hpp"
 
 namespace turbidite {
 namespace {
@@ -36,6 +37,8 @@ double speed_of_a_disc(const Scales& scales, double ratio, double diameter) {
 double fastest_fall(const ResolvedCase& resolved) {
     const auto speed_of = in_space(resolved.settings) ? speed_of_a_sphere : speed_of_a_disc;
     const Scales& scales = resolved.scales;
+    if (is_poured(resolved.settings))  // what stands in for them may be smaller
+        return speed_of(scales, resolved.settings.real("grains.density_ratio"), scales.diameter);
     double fastest = 0.0;
     for (const GrainState& grain : resolved.population)
         if (!grain.prescribed)

@@ -81,7 +81,7 @@ def stands_at_left(run):
         return False
     low, high = extent
     fills_depth = not run.in_space() or (low[2] <= NEAR and high[2] >= run.depth() - NEAR)
-    return low[0] <= NEAR and fills_depth
+    return run.case.get('domain.left') not in ('free', 'cyclic') and low[0] <= NEAR and fills_depth
 
 
 def covered(height):

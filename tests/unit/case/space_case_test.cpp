@@ -708,7 +708,7 @@ TEST(RandomSpacePacking, RefusesBillionsBeforeItDrawsThem) {
     const PackingRequest request{
         .box = box, .count = 3'000'000'000'000, .forms = &forms, .size_ratio = 1.5};
     EXPECT_SAYS(random_space_packing(request).refusal, "grains.generator: lattice");
-    EXPECT_SAYS(random_space_packing(request).refusal, "Use grains.generator: poured");
+    EXPECT_EQ(random_space_packing(request).refusal.find("poured"), std::string::npos);
     EXPECT_SAYS(poured_stand_in(request).refusal, "fewer grains");
 }
 

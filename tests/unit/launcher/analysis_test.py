@@ -169,10 +169,17 @@ class WrittenDeposits(RunFolderTest):
         self.assertIsNone(self.heap([0, 0, 3, 3], [0, 2, 3, 3, 2]))
         self.assertTrue(run_data.load_run(self.folder).is_avalanche())
         self.assertIsNone(self.heap([3, 3], [3, 2, 1], depth=6))  # spheres in the middle of the depth
+        for side, there in (('free', False), ('cyclic', False), ('wall', True)):
+            self.heap([3, 3], [3, 2, 1])
+            case = (self.folder / 'case.yaml').read_text()
+            self.write('case.yaml', case.replace('left: wall', f'left: {side}') if 'left: wall' in case
+                       else case.replace('domain:', f'domain:\n  left: {side}'))
+            self.assertEqual(deposit.deposit(run_data.load_run(self.folder)) is not None, there, side)
 
     def test_grains_in_a_lying_drum_are_no_column(self):
         for wall, is_column in (('cylinder,1,3,-1,0,0,9,4', False), ('cylinder,1,-1,0,0,9,0,4', True),
-                                ('cylinder,7,3,-1,0,0,9,0.9', True), ('plate,0,3,0,8,0,0,', True)):
+                                ('cylinder,7,3,-1,0,0,9,0.9', True), ('cylinder,1,1.5,-1,0,0,9,0.9', True),
+                                ('plate,0,3,0,8,0,0,', True)):
             self.heap([3, 3], [3, 2, 1], depth=1)
             self.write('grains/walls.csv', f'id,kind,x,y,z,ax,ay,az,r1\n1,{wall}\n')
             self.assertEqual(run_data.load_run(self.folder).is_avalanche(), is_column, wall)

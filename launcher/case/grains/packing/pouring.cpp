@@ -17,7 +17,6 @@ namespace turbidite {
 namespace {
 
 constexpr double loose_fraction = 0.25;  // of the falling grains
-constexpr double densest_poured = 0.66;  // no friction: 0.64; grains of several sizes fill more
 
 /// Ground area on which the grains are poured, x and z [D].
 struct Ground {

@@ -15,6 +15,10 @@
 
 namespace turbidite {
 
+/// Largest solid fraction of a poured packing. Without friction 0.64; grains of several sizes fill
+/// more.
+inline constexpr double densest_poured = 0.66;
+
 /// Whether the grains of a case are to be poured; not where they come from a file or another run.
 bool is_poured(const Settings& settings);
 

@@ -10,6 +10,7 @@
 
 #include "launcher/case/grains/packing/lattice.hpp"
 #include "launcher/case/grains/packing/neighbour_grid.hpp"
+#include "launcher/case/grains/packing/pouring.hpp"
 #include "launcher/case/grains/packing/random_numbers.hpp"
 #include "launcher/case/grains/packing/random_packing.hpp"
 #include "launcher/case/grains/packing/space_lattice.hpp"
@@ -105,13 +106,14 @@ std::string words_of(const PackingRegion& region) {
 
 std::string too_dense_for_random(const PackingRequest& request, double fraction) {
     return fmt::format(
-        "They fill {:.3g} of {}; at random places at most {} are possible. {} Or ask for fewer "
-        "grains, or use grains.generator: lattice.",
+        "They fill {:.3g} of {}; at random places at most {} are possible. {}sk for fewer grains, "
+        "or use grains.generator: lattice.",
         fraction, words_of(request.filled()), largest_random_fraction,
-        request.filled().cylinder
+        fraction > densest_poured ? "A"
+        : request.filled().cylinder
             ? "Pour them: let fewer per volume fall in a higher box, and start from that run with "
-              "run --from."
-            : "Use grains.generator: poured, which lets them fall into the region first.");
+              "run --from. Or a"
+            : "Use grains.generator: poured, which lets them fall into the region first. Or a");
 }
 
 std::string spheres_do_not_fit(const PackingRequest& request) {
