@@ -118,8 +118,7 @@ std::string beyond(const Abilities& able, const Settings& s,
     if (!able.given_motions && held != grains.end())
         return "grain " + std::to_string(held->id) +
                " has a given motion: it moves free grains only";
-    if (!able.contact_positions && is_text(s, "coupling.positions", "corrected") &&
-        is_text(s, "coupling.scheme", "joint"))
+    if (!able.contact_positions && is_text(s, "coupling.positions", "corrected"))
         return named(s, "coupling.positions") + ": it moves with the corrected velocities";
     if (const std::string reason = beyond_walls(able, s); !reason.empty()) return reason;
     return beyond_contacts(able, s);

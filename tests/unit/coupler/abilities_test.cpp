@@ -113,14 +113,6 @@ TEST(Abilities, WallsInsideMoveAndRubByTheirOwnLine) {
     EXPECT_EQ(with("3", drum, moving), "");
 }
 
-// Under `joint` contact velocities and those of the kicks agree.
-TEST(Abilities, UnderJointPositionsAreNoQuestion) {
-    Settings s = plain();
-    s.set("coupling.positions", std::string("contact"));
-    s.set("coupling.scheme", std::string("joint"));
-    EXPECT_EQ(beyond({}, s, {}), "");
-}
-
 TEST(Abilities, GivenMotionsAreThoseOfTheGrains) {
     GrainState held;
     held.id = 42;
