@@ -61,21 +61,29 @@ bool begins_in_motion(const PlacedGrain& grain) {
     return false;
 }
 
+/// Of its velocity, far from others: rho_r/(rho_r + C V(R_h)/V) in an infinite fluid at rest.
+double kept_by(const PlacedGrain& grain, const Settings& settings) {
+    const double coefficient = in_space(settings) ? 0.5 : 1.0;
+    const double ratio = grain.density.value_or(settings.real("grains.density_ratio"));
+    return ratio / (ratio + coefficient * displaced_volume(settings, grain.radius));
+}
+
 /// The fluid around them begins at rest: its pressure shares their momentum out between them and
 /// an added mass of it.
 std::vector<std::string> motions_shared_with_fluid(const Settings& settings,
                                                    const Packing& grains) {
-    const auto moving = std::count_if(grains.begin(), grains.end(), begins_in_motion);
-    if (moving == 0 || !settings.flag("fluid.enabled")) return {};
-    // rho_r/(rho_r + C V(R_h)/V) of one of diameter D in an infinite fluid
-    const double coefficient = in_space(settings) ? 0.5 : 1.0;
-    const double ratio = settings.real("grains.density_ratio");
-    const double kept = ratio / (ratio + coefficient * displaced_volume(settings, 0.5));
+    if (!settings.flag("fluid.enabled")) return {};
+    std::vector<double> kept;
+    for (const PlacedGrain& grain : grains)
+        if (begins_in_motion(grain)) kept.push_back(kept_by(grain, settings));
+    if (kept.empty()) return {};
+    const auto [least, most] = std::minmax_element(kept.begin(), kept.end());
+    const std::string low = fmt::format("{:.2g}", *least), high = fmt::format("{:.2g}", *most);
     return {fmt::format(
         "{} grain(s) begin with a velocity or spin, in fluid that is at rest around them: in the "
-        "first windows added mass takes its share of a velocity; far from others about {:.2g} of "
+        "first windows added mass takes its share of a velocity; far from others about {} of "
         "it stays, and an inflow, which begins at once, pushes them besides",
-        moving, kept)};
+        kept.size(), low == high ? low : low + " to " + high)};
 }
 
 ResolvedCase resolve(Settings settings, PlacedCase placed, const CaseEntries& entries) {

@@ -527,6 +527,9 @@ TEST_F(SpaceCase, HowMuchOfAVelocityTheFluidLeavesIsTold) {
     // 1.5/(1.5 + 0.5 (1 + 0.6/8)^3)
     EXPECT_SAYS(told(moving, "true"), "1 grain(s) begin with a velocity or spin");
     EXPECT_SAYS(told(moving, "true"), "about 0.71 of it stays");
+    // Each by its own density.
+    EXPECT_SAYS(told("id,x,y,z,vx,density\n1,6,5,3,2,1.5\n2,9,5,3,2,7\n", "true"),
+                "about 0.71 to 0.92 of it stays");
     EXPECT_EQ(told(moving, "false").find("begin with"), std::string::npos);
     EXPECT_EQ(told("id,x,y,z\n1,1,2,2\n", "true").find("begin with"), std::string::npos);
 }
