@@ -7,7 +7,6 @@
 Runs `./turbidite run` once per row, unless the row's run folder exists, and compares the mean histories with those of
 `joint` at the smallest step. Times are wall times of this machine, and comparable only within one table."""
 import argparse
-import json
 import subprocess
 import sys
 from pathlib import Path
@@ -17,6 +16,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / 'launcher/report'))
 import run_data  # access to the contents of a run folder
+from avalanche_dry import is_done
 
 SCHEMES = {
     'split, corrected': ['coupling.scheme=split', 'coupling.positions=corrected'],
@@ -63,11 +63,6 @@ def play(options, scheme, step):
         print(' '.join(command), file=sys.stderr, flush=True)
         subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
     return Run(folder)
-
-
-def is_done(folder):
-    record = folder / 'run.json'
-    return record.exists() and json.loads(record.read_text()).get('status') == 'done'
 
 
 def difference(run, reference):

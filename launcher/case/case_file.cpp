@@ -140,7 +140,7 @@ ResolvedCase resolved_case(CaseEntries entries, const std::filesystem::path& fol
 
 EarlierStart earlier_run(const std::string& text) {
     const EarlierRun run = parse_earlier_run(text);
-    ResolvedCase resolved = load_run_folder(run.folder, {}, Machine::any);
+    ResolvedCase resolved = load_run_folder(run.folder);
     std::vector<std::string> materials = material_names(resolved.settings);
     return {run, {resolved.scales, std::move(resolved.shapes), std::move(materials)}};
 }

@@ -29,13 +29,18 @@ def with_images(run, centres, radii):
     for axis, side, length in ((0, 'left', run.size()[0]), (2, 'front', run.depth())):
         if run.case.get(f'domain.{side}') != 'cyclic':
             continue
-        centres = centres.copy()
-        centres[:, axis] %= length
-        shift = np.eye(3)[axis] * length
-        low, high = centres[:, axis] < radii, centres[:, axis] > length - radii
-        centres = np.concatenate([centres, centres[low] + shift, centres[high] - shift])
-        radii = np.concatenate([radii, radii[low], radii[high]])
+        centres, radii = with_images_along(axis, length, centres, radii)
     return centres, radii
+
+
+def with_images_along(axis, period, centres, radii):
+    """Centres (n, d) inside a period, and the images of those that reach into it from beyond its ends."""
+    centres = centres.copy()
+    centres[:, axis] %= period
+    shift = np.eye(centres.shape[1])[axis] * period
+    low, high = centres[:, axis] < radii, centres[:, axis] > period - radii
+    return (np.concatenate([centres, centres[low] + shift, centres[high] - shift]),
+            np.concatenate([radii, radii[low], radii[high]]))
 
 
 def tops(centres, radii, begin, end):

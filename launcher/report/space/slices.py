@@ -12,7 +12,7 @@ import grain_files
 import pictures
 from analysis.snapshots import evenly
 from document.typeset import plain
-from space import rectilinear
+from space import free_surface, rectilinear
 
 AXES = 'xyz'
 PANEL_WIDTH = 420
@@ -78,7 +78,7 @@ def cut_grains(run, one, grains, larger=0.0):
     centres, cut = positions[there][:, [one.across, one.up]], np.sqrt(radii[there]**2 - off[there]**2)
     for k, axis in enumerate((one.across, one.up)):
         if period[axis]:
-            centres, cut = with_images(centres, cut, k, period[axis])
+            centres, cut = free_surface.with_images_along(k, period[axis], centres, cut)
     return grain_files.Grains(grains.time, centres, cut)
 
 
@@ -87,16 +87,6 @@ def periods(run):
     lengths = np.array([*run.size(), run.depth()]) * run.scale('D')
     return [length if run.case.get(f'domain.{side}') == 'cyclic' else 0.0
             for length, side in zip(lengths, ('left', 'bottom', 'front'))]
-
-
-def with_images(centres, radii, axis, period):
-    """The discs, inside a period, and those that reach into it from beyond its ends."""
-    inside = centres.copy()
-    inside[:, axis] %= period
-    low, high = inside[:, axis] < radii, inside[:, axis] > period - radii
-    shift = np.eye(2)[axis] * period
-    return (np.concatenate([inside, inside[low] + shift, inside[high] - shift]),
-            np.concatenate([radii, radii[low], radii[high]]))
 
 
 def add(page, run):

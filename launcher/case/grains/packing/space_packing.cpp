@@ -106,14 +106,14 @@ std::string words_of(const PackingRegion& region) {
 
 std::string too_dense_for_random(const PackingRequest& request, double fraction) {
     return fmt::format(
-        "They fill {:.3g} of {}; at random places at most {} are possible. {}sk for fewer grains, "
+        "They fill {:.3g} of {}; at random places at most {} are possible. {} for fewer grains, "
         "or use grains.generator: lattice.",
         fraction, words_of(request.filled()), largest_random_fraction,
-        fraction > densest_poured ? "A"
+        fraction > densest_poured ? "Ask"
         : request.filled().cylinder
             ? "Pour them: let fewer per volume fall in a higher box, and start from that run with "
-              "run --from. Or a"
-            : "Use grains.generator: poured, which lets them fall into the region first. Or a");
+              "run --from. Or ask"
+            : "Use grains.generator: poured, which lets them fall into the region first. Or ask");
 }
 
 std::string spheres_do_not_fit(const PackingRequest& request) {
