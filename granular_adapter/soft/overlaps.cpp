@@ -30,12 +30,16 @@ void OverlapFinder::detect(const nscd::Bodies& bodies, const Near& near,
     const double mass = mass_of_point(bodies, near);
     for (const nscd::ContactPoint& point : points_) {
         overlaps_.push_back({near.name, point, mass});
-        overlaps_.back().name.feature = point.feature;
+        overlaps_.back().name.feature = is_of_one_point(bodies, near) ? 0 : point.feature;
     }
 }
 
 bool OverlapFinder::has_corners(const nscd::Bodies& bodies, std::int32_t body) const {
     return narrow_.has_corners(bodies.shape[body]);
+}
+
+bool OverlapFinder::is_of_one_point(const nscd::Bodies& bodies, const Near& near) const {
+    return near.wall < 0 && !(has_corners(bodies, near.a) && has_corners(bodies, near.b));
 }
 
 double OverlapFinder::mass_of_point(const nscd::Bodies& bodies, const Near& near) const {

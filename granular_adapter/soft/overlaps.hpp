@@ -44,6 +44,9 @@ class OverlapFinder {
  private:
     void detect(const nscd::Bodies& bodies, const Near& near, const nscd::PlacedShapes& placed);
     bool has_corners(const nscd::Bodies& bodies, std::int32_t body) const;
+    /// A round grain and another one touch at one point, whose spring stays as the point passes
+    /// from a side to a corner.
+    bool is_of_one_point(const nscd::Bodies& bodies, const Near& near) const;
     double mass_of_point(const nscd::Bodies& bodies, const Near& near) const;
 
     nscd::NarrowPhase narrow_;
