@@ -138,13 +138,14 @@ PreparedRun prepare_to_play(const PlannedRun& run, const fs::path& out, const La
     return prepare_afresh(run, folder, site);
 }
 
-/// Empty if it cannot be played now, which then was said; `result` has the code, unless another run
-/// failed before.
+/// Empty if it cannot be played now, which then was said and stands in `why_not`; `result` has the
+/// code, unless another run failed before.
 template <class Prepare>
-auto unless_it_waits(const PlannedRun& run, ExitCode& result, const Prepare& prepare)
-    -> std::optional<decltype(prepare())> {
+auto unless_it_waits(const PlannedRun& run, ExitCode& result, WhyNot& why_not,
+                     const Prepare& prepare) -> std::optional<decltype(prepare())> {
     const auto stays = [&](const char* how, const char* why, ExitCode code) {
         tell_on_stderr(fmt::format("{}: {}: {}", run.path(), how, why));
+        why_not[run.path()] = why;
         if (result == ExitCode::done) result = code;
     };
     constexpr const char* waits = "it stays as it is, and the next call tries again";
@@ -194,6 +195,7 @@ ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan, c
     const LaunchSite site = this_site();
     PaceOfParts pace;
     ExitCode result = ExitCode::done;
+    WhyNot why_not;
     for (;;) {
         std::shared_ptr<RunLock> chosen = turns.lock();
         const PlannedRun* run = turns.next();
@@ -201,14 +203,18 @@ ExitCode play_missing(const Study& study, const std::vector<PlannedRun>& plan, c
         announce(*run, plan, turns, pace);
         const auto start = Clock::now();
         const auto prepared = unless_it_waits(
-            *run, result, [&] { return prepare_in_turn(*run, out, site, turns, chosen); });
+            *run, result, why_not, [&] { return prepare_in_turn(*run, out, site, turns, chosen); });
         chosen.reset();
+        if (!prepared) {
+            chosen = turns.lock();
+            write_study_record(study, plan, out, why_not);
+        }
         if (!prepared || !*prepared) continue;
         const auto outcome =
-            unless_it_waits(*run, result, [&] { return play(**prepared, site.programs); });
+            unless_it_waits(*run, result, why_not, [&] { return play(**prepared, site.programs); });
         const ExitCode code = outcome ? outcome->code : result;
         chosen = turns.lock();
-        write_study_record(study, plan, out);
+        write_study_record(study, plan, out, why_not);
         if (asked_to_stop(code)) return code;
         if (result == ExitCode::done) result = code;
         if (!outcome) continue;

@@ -68,7 +68,7 @@ def as_csv(runs):
         values = [m.of(run.data) if run.data.history is not None else None for m in MEASURED]
         rows.writerow([run.entry['part'], run.entry['name'], *[run.entry['values'].get(key, '') for key in keys],
                         run.entry['status'], *['' if v is None else repr(float(v)) for v in values],
-                        run.entry['error']])
+                        ' '.join(run.entry['error'].split())])
     return text.getvalue()
 
 
@@ -78,7 +78,7 @@ def make_page(title, runs, command=''):
     page = Page(f'Study {title}')
     page.paragraph(progress(runs), 'verdict ' + ('holds' if all(run.entry['status'] == 'done' for run in runs) else 'doubt'))
     failed = [f'{run.entry["folder"]}: {run.entry["status"]}. {run.entry["error"]}' for run in runs
-              if run.entry['status'] not in ('done', 'missing')]
+              if run.entry['status'] not in ('done', 'missing') or run.entry['error']]
     if failed:
         page.bullets(failed, 'bad')
     add_notes(page, runs, command)

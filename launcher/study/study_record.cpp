@@ -14,7 +14,15 @@ namespace {
 
 using Record = nlohmann::ordered_json;
 
-nlohmann::ordered_json run_entry(const PlannedRun& run, const std::filesystem::path& out) {
+std::string error_of(const PlannedRun& run, RunState state, const Record& record,
+                     const WhyNot& why_not) {
+    if (state == RunState::failed) return record.value("error", "");
+    const auto reason = why_not.find(run.path());
+    return state == RunState::missing && reason != why_not.end() ? reason->second : "";
+}
+
+nlohmann::ordered_json run_entry(const PlannedRun& run, const std::filesystem::path& out,
+                                 const WhyNot& why_not) {
     const RunFolder folder{out / run.path()};
     const Record record = read_run_json(folder.record());
     const RunState state = state_of(run, out);
@@ -25,7 +33,17 @@ nlohmann::ordered_json run_entry(const PlannedRun& run, const std::filesystem::p
             {"folder", run.path()},
             {"values", values},
             {"status", state == RunState::missing ? "missing" : record.value("status", "unknown")},
-            {"error", state == RunState::failed ? record.value("error", "") : ""}};
+            {"error", error_of(run, state, record, why_not)}};
+}
+
+/// Of runs that study.json calls missing.
+WhyNot reasons_in(const std::filesystem::path& study_json) {
+    WhyNot reasons;
+    const Record record = read_run_json(study_json);
+    for (const auto& run : record.value("runs", Record::array()))
+        if (run.value("status", "") == "missing" && !run.value("error", "").empty())
+            reasons[run.value("folder", "")] = run.value("error", "");
+    return reasons;
 }
 
 /// The exit code, if it has ended by a word of its own.
@@ -84,13 +102,16 @@ bool may_go_on(const PlannedRun& run, const std::filesystem::path& out) {
 }
 
 void write_study_record(const Study& study, const std::vector<PlannedRun>& plan,
-                        const std::filesystem::path& out) {
+                        const std::filesystem::path& out, const WhyNot& why_not) {
+    const std::filesystem::path file = out / "study.json";
+    WhyNot reasons = why_not;
+    reasons.merge(reasons_in(file));
     auto runs = nlohmann::ordered_json::array();
-    for (const PlannedRun& run : plan) runs.push_back(run_entry(run, out));
-    write_run_json(out / "study.json", {{"study", study.name},
-                                        {"command", study.command},
-                                        {"figures", study.figures},
-                                        {"runs", runs}});
+    for (const PlannedRun& run : plan) runs.push_back(run_entry(run, out, reasons));
+    write_run_json(file, {{"study", study.name},
+                          {"command", study.command},
+                          {"figures", study.figures},
+                          {"runs", runs}});
 }
 
 }  // namespace turbidite

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "launcher/study/study_plan.hpp"
@@ -23,8 +25,12 @@ RunState state_of(const PlannedRun& run, const std::filesystem::path& out);
 /// failed or stalled, which need not happen again.
 bool may_go_on(const PlannedRun& run, const std::filesystem::path& out);
 
-/// Throws Failure (exit code 4) when it cannot be written.
+/// Why runs could not be played, by PlannedRun::path().
+using WhyNot = std::map<std::string, std::string>;
+
+/// Runs that are still missing keep the reason that study.json has had. Throws Failure (exit code
+/// 4) when it cannot be written.
 void write_study_record(const Study& study, const std::vector<PlannedRun>& plan,
-                        const std::filesystem::path& out);
+                        const std::filesystem::path& out, const WhyNot& why_not = {});
 
 }  // namespace turbidite

@@ -122,6 +122,8 @@ TEST_F(StudyRuns, GoesOnWhereARunCannotBePlayed) {
     EXPECT_SAYS(answer.err, "is not empty, and no run is in it");
     EXPECT_SAYS(answer.out, "2 of 3 runs done");
     EXPECT_EQ(column("status"), (std::vector<std::string>{"missing", "done", "done"}));
+    EXPECT_SAYS(text(scratch.path() / "s/study.csv"), "is not empty, and no run is in it");
+    EXPECT_SAYS(text(scratch.path() / "s/study.html"), "frictions/friction-0: missing. ");
     EXPECT_EQ(text(notes), "the user's");
 }
 

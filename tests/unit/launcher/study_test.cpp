@@ -357,6 +357,33 @@ TEST_F(StudyTest, ARunIsDoneWhenItsCaseIsThePlannedOne) {
     EXPECT_EQ(record["runs"][2]["values"]["random.seed"], "3");
 }
 
+// Whoever writes the record next need not know it: another call of the study, one that plays
+// others.
+TEST_F(StudyTest, KeepsWhyARunCouldNotBePlayedUntilItIs) {
+    const std::string text = "{case: column.yaml, sweep: {random.seed: [1, 2]}}";
+    const auto runs = plan(text);
+    const auto error = [&](std::size_t i) {
+        const auto record = nlohmann::json::parse(std::ifstream(scratch.path() / "study.json"));
+        return record["runs"][i]["error"].get<std::string>();
+    };
+    write_study_record(study(text), runs, scratch.path(), {{runs[0].path(), "no room"}});
+    EXPECT_EQ(error(0), "no room");
+    EXPECT_EQ(error(1), "");
+    write_study_record(study(text), runs, scratch.path());
+    EXPECT_EQ(error(0), "no room");
+    write_study_record(study(text), runs, scratch.path(), {{runs[0].path(), "another"}});
+    EXPECT_EQ(error(0), "another");
+    std::filesystem::create_directories(scratch.path() / runs[0].path());
+    std::ofstream(scratch.path() / runs[0].path() / "run.json")
+        << nlohmann::json{{"case_hash", runs[0].hash},
+                          {"status", "done"},
+                          {"exit_code", 0},
+                          {"windows", 100},
+                          {"windows_done", 100}};
+    write_study_record(study(text), runs, scratch.path());
+    EXPECT_EQ(error(0), "");
+}
+
 // Killed, stopped on request, refused: only the first two go on, and only from a checkpoint.
 TEST_F(StudyTest, ARunThatWasCutOffHasBegun) {
     const auto run = plan("{case: column.yaml, sweep: {random.seed: [1]}}").at(0);
