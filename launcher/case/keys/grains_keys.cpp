@@ -288,7 +288,7 @@ KeyGroup grains_keys() {
                           .range = not_negative,
                           .help = "friction of grains and walls while grains are poured (generator "
                                   "poured); contact.friction unless given. 0 gives dense packings, "
-                                  "about 0.64, 0.5 loose ones, about 0.57",
+                                  "about 0.64, 0.5 loose ones, about 0.58",
                           .idle = without_pouring}),
                 {.name = "grains.jitter",
                  .type = KeyType::real,
