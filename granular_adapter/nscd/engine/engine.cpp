@@ -28,6 +28,12 @@ constexpr double alert_share = 0.02;
 constexpr double turn_share = 1e-5;
 constexpr int turn_rounds = 2;
 
+// A step is solved again, looking farther, while its velocities let surfaces approach each other by
+// more than was looked for and this fraction of the smallest radius: what a squeezed body shoots
+// at, nobody had asked about.
+constexpr double most_overlooked = 0.01;
+constexpr int search_rounds = 3;
+
 // A step is solved more exactly while a body sinks into a smaller one by more than this fraction of
 // its radius.
 constexpr double most_sinking = 0.01;
@@ -123,19 +129,28 @@ StepReport Engine::step_from(const std::vector<Twist>& free, Mobilities mobiliti
                                     std::to_string(dimension(mobilities)) + ", the engine of " +
                                     std::to_string(settings_.dimension));
     if (!shared_.ranks) check_periods();
-    release_step();
     look_ahead(free, dt);
-    if (!shared_.ranks) return solve_step(free, std::move(mobilities), dt);
-    std::vector<Twist> all = free;
-    gather_bodies(all, mobilities);
-    return solve_step(all, std::move(mobilities), dt);
+    return solve_step(free, std::move(mobilities), dt);
 }
 
-StepReport Engine::solve_step(const std::vector<Twist>& free, Mobilities mobilities, double dt) {
-    detect();
-    pose(free, std::move(mobilities), dt);
-    SolverResult result = solve(dt);
-    return hand_out(std::move(result), dt);
+StepReport Engine::solve_step(std::vector<Twist> free, Mobilities mobilities, double dt) {
+    std::int64_t iterations = 0;
+    for (int round = 1;; ++round) {
+        release_step();
+        if (shared_.ranks) gather_bodies(free, mobilities);
+        detect();
+        pose(free, std::move(mobilities), dt);
+        SolverResult result = solve(dt);
+        result.iterations += iterations;
+        if (round == search_rounds || !result.converged || !looks_farther(result.velocities, dt))
+            return hand_out(std::move(result), dt);
+        iterations = result.iterations;
+        remember(result.impulses, dt);  // where the next solve begins
+        // Without the copies of other ranks' bodies, which are those of another search then.
+        mobilities = std::move(contacts_.problem.bodies);
+        resize(mobilities, bodies_.size());
+        free.resize(bodies_.size());
+    }
 }
 
 void Engine::check_periods() {
@@ -160,6 +175,27 @@ double Engine::bound(const std::vector<Twist>& twists, double dt) const {
 void Engine::look_ahead(const std::vector<Twist>& free, double dt) {
     // A law may act at gaps that no motion closes, as adhesion and films do.
     reach_ = std::max({bound(free, dt), bound(bodies_.twist, dt), laws_.law().range()});
+}
+
+/// Whether a pair may have been overlooked that closes at these velocities, of the bodies of the
+/// points; then how far to look is what they ask for, at most a diameter.
+bool Engine::looks_farther(const std::vector<Twist>& found, double dt) {
+    if (!in_space()) return false;  // in the plane all digits stay
+    double smallest = std::numeric_limits<double>::infinity(), largest_radius = 0.0;
+    for (const double radius : bodies_.radius) {
+        smallest = std::min(smallest, radius);
+        largest_radius = std::max(largest_radius, radius);
+    }
+    if (shared_.ranks) {
+        smallest = -largest(shared_.ranks->ranks(), -smallest);
+        largest_radius = largest(shared_.ranks->ranks(), largest_radius);
+    }
+    const auto own = static_cast<std::ptrdiff_t>(bodies_.size());
+    const double wanted = std::min(bound({found.begin(), found.begin() + own}, dt),
+                                   std::max(reach_, 2.0 * largest_radius));
+    if (!(wanted > reach_ + most_overlooked * smallest)) return false;
+    reach_ = wanted;
+    return true;
 }
 
 /// Gives bodies that have crossed cells to other ranks, and gets copies of those near the own

@@ -202,7 +202,8 @@ class Engine {
     double bound(const std::vector<Twist>& twists, double dt) const;
     void gather_bodies(std::vector<Twist>& free, Mobilities& mobilities);
     RankShare share(std::vector<std::vector<Twist>*> twists, Mobilities* mobilities);
-    StepReport solve_step(const std::vector<Twist>& free, Mobilities mobilities, double dt);
+    StepReport solve_step(std::vector<Twist> free, Mobilities mobilities, double dt);
+    bool looks_farther(const std::vector<Twist>& found, double dt);
     void detect();
     void pose(const std::vector<Twist>& free, Mobilities mobilities, double dt);
     SolverResult solve(double dt);

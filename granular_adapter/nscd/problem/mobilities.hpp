@@ -27,4 +27,8 @@ inline std::size_t size(const Mobilities& mobilities) {
     return std::visit([](const auto& bodies) { return bodies.size(); }, mobilities);
 }
 
+inline void resize(Mobilities& mobilities, std::size_t size) {
+    std::visit([size](auto& bodies) { bodies.resize(size); }, mobilities);
+}
+
 }  // namespace turbidite::nscd

@@ -82,6 +82,26 @@ TEST(Ranks, HaveTheBitsOfOneRankWithLargeAndFixedBodies) {
     for (const int ranks : {2, 3}) expect_equal(one, play(scene, ranks));
 }
 
+// The step in which a heavy sphere squeezes a small one out at ten times its own speed, towards
+// another one, is solved again with a longer search: other cells, other owners and copies.
+TEST(Ranks, HaveTheBitsOfOneRankWhereASphereIsSqueezedOut) {
+    Scene scene = slide(8, 3);
+    constexpr double small = 0.1, sine = 0.1, gap = 0.05;
+    const Vec3 place{-4.0, small, 6.0};
+    const Vec3 to_heavy{sine, std::sqrt(1.0 - sine * sine), 0.0};
+    scene.bodies.add(scenes::sphere(5000, place, small));
+    Body heavy = scenes::sphere(5001, place + (1.0 + small) * to_heavy, 1.0);
+    heavy.twist.velocity = {0.0, -2.0, 0.0};
+    scene.bodies.add(heavy);
+    scene.bodies.add(scenes::sphere(5002, place - Vec3{2.0 * small + gap, 0.0, 0.0}, small));
+    scene.walls = {scenes::floor(0.0)};
+    scene.settings.surfaces = {Surface{}};
+    scene.steps = 3;
+    const Played one = play(scene, 1);
+    ASSERT_LT(one.grains.at(5002).twist.velocity[0], -4.0);
+    for (const int ranks : {2, 3, 4}) expect_equal(one, play(scene, ranks));
+}
+
 /// Ten small and ten large spheres along x, apart from each other but for a pair at the far end,
 /// which is bonded and pulled apart: the one with the lower id is small or large.
 Scene bonded_pair(bool small_first) {

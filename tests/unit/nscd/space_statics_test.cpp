@@ -102,6 +102,24 @@ TEST(SpaceStatics, ALightSphereUnderAHeavyOneIsNotPressedThrough) {
     }
 }
 
+// The heavy sphere comes down on a small one beside its lowest point, which must leave at cot(a) =
+// 10 times its speed, n = (sin a, cos a): farther within the step than any motion before had
+// foretold, and there another one lies.
+TEST(SpaceStatics, ASphereThatIsSqueezedOutDoesNotGoThroughTheNext) {
+    constexpr double small = 0.1, step = 0.01, sine = 0.1, gap = 0.05;
+    Engine engine(scenes::exact_in_space(0.0), scenes::spheres, {scenes::floor(0.0)});
+    engine.bodies().add(scenes::sphere(1, {0.0, small, 0.0}, small));
+    const Vec3 to_heavy{sine, std::sqrt(1.0 - sine * sine), 0.0};
+    engine.bodies().add(scenes::sphere(2, Vec3{0.0, small, 0.0} + (1.0 + small) * to_heavy, 1.0));
+    engine.bodies().add(scenes::sphere(3, {-2.0 * small - gap, small, 0.0}, small));
+    engine.bodies().twist[1].velocity = {0.0, -1.0, 0.0};
+    EXPECT_TRUE(engine.step(step).converged);
+    engine.move(step);
+    EXPECT_LT(engine.bodies().position[0][0], -gap);
+    EXPECT_LT(engine.bodies().twist[2].velocity[0], -1.0);
+    EXPECT_LT(engine.max_penetration(), 0.01 * small);
+}
+
 // Of many like spheres one may sink in, whose error the residual of all hides: it gets more sweeps.
 // Of an overlap a part is left in the steps after it, so that several make more than one does.
 TEST(SpaceStatics, NoSphereOfManySinksInFar) {
