@@ -55,10 +55,11 @@ def collapse(run):
 
 
 def front_caption(run):
-    """Where the front goes; empty without one at the end. At a wall it says no more than when it came there."""
+    """Where the front goes; empty without one at the end, and where held grains are farther than it. At a wall it says no
+    more than when it came there."""
     _, front = run.column('front_x')
     end = run.end('front_x')
-    if end is None:
+    if end is None or not run.front_is_free():
         return ''
     arrival = run.front_arrives() if run.case.get('domain.right') == 'wall' else None
     if arrival is not None:

@@ -19,6 +19,7 @@ import grain_files
 
 GRAINS = 'grains'  # in RunData.fingerprints
 BARE_FROM = 0.9  # of the width: grains that reach so far at first fill the box
+SAME_FRONT = 0.01    # D
 FEWEST_IN_COLUMN = 2  # free grains: one that falls by itself is none
 CONTINUED = ('time.end', 'output.', 'limits.', 'fluid.ranks', 'grains.ranks')  # keys that change no window
 
@@ -71,6 +72,13 @@ class RunData:
         time, front = self.column('front_x')
         arrived = [t for t, x in zip(time, front) if x >= self.size()[0] - 0.5]
         return arrived[0] if arrived else None
+
+    def front_is_free(self):
+        """Whether the front of the history, of all grains, is that of those whose motion is not prescribed: at first no
+        held grain is farther to the right."""
+        front = self.column('front_x')[1]
+        _, free = free_at_first(self)
+        return not len(front) or free is None or front[0] <= free + SAME_FRONT
 
     def has_cyclic_floor(self):
         """What leaves at the bottom comes in at the top."""

@@ -224,8 +224,9 @@ def draw_line(axes, i, label, points, measured):
         return
     x = [place for place, _ in found]
     mean = np.array([np.mean(known) for _, known in found])
-    below = mean - [min(known) for _, known in found]
-    above = np.array([max(known) for _, known in found]) - mean
+    # The mean of equal numbers may be off by rounding, and no bar may be negative.
+    below = np.maximum(0.0, mean - [min(known) for _, known in found])
+    above = np.maximum(0.0, np.array([max(known) for _, known in found]) - mean)
     spread = [below, above] if any(member.is_group() for _, member in points) else None
     axes.errorbar(x, mean, yerr=spread, marker=curves.MARKERS[i % len(curves.MARKERS)], markersize=4, capsize=3,
                   color=f'#{compare_page.colour_of(i)}', linestyle=curves.dash(i), label=label or None, linewidth=1.2)

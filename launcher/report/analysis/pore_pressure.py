@@ -51,9 +51,9 @@ def field(run, time, folder):
 
 def natural_places(run):
     """Base: on the floor in the middle of the column; wall: half-way up the left wall; inside: half-way up the middle;
-    half a D off floor and wall. From the first output."""
+    half a D off floor and wall. From the grains of the first output whose motion is not prescribed."""
     first = snapshots.snapshots(run)[0]
-    width, height = first.centres.max(axis=0) + 0.5
+    width, height = first.centres[first.free()].max(axis=0) + 0.5
     return np.array([[width / 2, 0.5], [0.5, height / 2], [width / 2, height / 2]])
 
 

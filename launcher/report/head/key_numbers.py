@@ -13,7 +13,7 @@ SHOWN = ('peak_velocity', 'peak_time', 'relaxation_time', 'relaxation_bound', 'r
 def rows(run):
     """(title, value with its unit) of those that the run tells."""
     by_name = {one.name: one for one in measured.MEASURED}
-    left_out = [name for names, there in ((OF_COLLAPSES, run.is_avalanche()), (OF_HEAPS, is_heap(run)))
+    left_out = [name for names, there in ((OF_COLLAPSES, run.is_avalanche() and run.front_is_free()), (OF_HEAPS, is_heap(run)))
                 if not there for name in names]
     names = [name for name in SHOWN if name not in left_out]
     found = [(one, one.of(run)) for one in (by_name[name] for name in names)]

@@ -3,6 +3,7 @@
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import matplotlib
 import made_up_run  # noqa: F401  (finds the modules of the report)
@@ -379,6 +380,32 @@ class Results(unittest.TestCase):
     def test_spread(self):
         self.assertEqual(spread([1.0, 2.0, 3.0]), '2 (1 to 3)')
         self.assertEqual(spread([1.5]), '1.5')
+
+
+class OfSeveralRuns(unittest.TestCase):
+    def test_seeds_are_means(self):
+        runs = [made('immersed', {'random.seed': str(k)}, mean_velocity_norm=slide(0.0, k / 8.0)).data
+                for k in (1, 3)]
+        self.assertAlmostEqual(statements.mean_peak(runs).value, 2.0)
+        two = immersed(seeds='12')
+        found = statements.of_columns(PaperRuns(two), lambda one: 1.0 + 2.0 * (one.case['random.seed'] == '2'))
+        self.assertEqual(set(found.values()), {2.0})
+
+    def test_figures_are_of_the_runs_that_they_name(self):
+        with mock.patch.object(figures, 'sequence', lambda one: one[0].case['grains.compacity'] if one else None):
+            of = {number: figure for number, _, figure in figures.all_figures(PaperRuns(run_out()))
+                  if isinstance(figure, str)}
+        self.assertEqual(of, {5: LOOSE, 6: DENSE})
+        figure = figures.velocities(PaperRuns(immersed()))
+        for axes, re in zip(figure.axes[1:], ('89', '8.9', '0.89')):
+            top = 8.0 * 0.3 * (1.0 - 0.7854) * (1.0 + 0.1 * np.log10(float(re)))
+            self.assertAlmostEqual(axes.lines[0].get_ydata().max(), top)
+        figure = figures.settling(PaperRuns(settling()))
+        self.assertEqual(figure.axes[1].lines[0].get_ydata()[0], 40.0 / 60.0)
+        axes = figures.relaxation_times(PaperRuns(immersed())).axes[0]
+        line = next(one for one in axes.lines if len(one.get_xdata()) == 2)     # waits 60 (phi - 0.8)
+        np.testing.assert_allclose(line.get_ydata(), [60 * 0.029, 60 * 0.1069], rtol=1e-6)
+        plt.close('all')
 
 
 if __name__ == '__main__':

@@ -401,5 +401,52 @@ class Places(unittest.TestCase):
             places.report_folder()
 
 
+class SpaceInSI(Door):
+    """D = 0.01 m, u_c = 0.5 m/s, g = 16 m/s2, rho = 1000 kg/m3."""
+
+    def setUp(self):
+        super().setUp()
+        self.write_all()
+        self.write('case.yaml', CASE.replace('dimension: 2', 'dimension: 3').replace('[4, 6]', '[6, 5, 4]'))
+        self.write('run.json', json.dumps({'status': 'done', **SI, 'g': 16.0}))
+
+    def test_forces_are_over_areas_and_volumes(self):
+        three = np.array([[1.0, 2.0, 3.0]])
+        self.write('grains/a.vtp', poly_data(np.array([[0.01, 0.02, 0.03]]), '', array('id', np.array([4]), 1)
+                   + array('radius', [0.005], 1)
+                   + ''.join(array(name, three) for name in ('force', 'torque', 'contact_force'))))
+        self.write('grains/grains.pvd', series((0, 'a.vtp')))
+        one = turbidite.load(self.folder).grains[0]
+        np.testing.assert_allclose(one['force'][0], three[0] / 0.025)          # rho u_c^2 D^2
+        np.testing.assert_allclose(one['torque'][0], three[0] / 2.5e-4)        # rho u_c^2 D^3
+        np.testing.assert_allclose(one['contact_force'][0], three[0] / 0.016)  # rho g D^3
+
+    def test_contacts(self):
+        cells = (array('id_a', np.array([-3]), 1) + array('id_b', np.array([4]), 1) + array('gap', [0.001], 1)
+                 + array('tangential_force', [1.0], 1) + array('point', [[0.01, 0.02, 0.03]])
+                 + array('rolling_moment', [[1.0, 2.0, 3.0]]))
+        self.write('grains/c.vtp', poly_data(np.zeros((2, 3)), '', '', cells))
+        self.write('grains/contacts.pvd', series((0.5, 'c.vtp')))
+        one = turbidite.load(self.folder).contacts[0]
+        np.testing.assert_allclose(one['gap'], 0.1)
+        np.testing.assert_allclose(one['point'], [[1, 2, 3]])
+        np.testing.assert_allclose(one['tangential_force'], 1.0 / 0.016)
+        np.testing.assert_allclose(one['rolling_moment'][0, 1], 2.0 / 1.6e-4)
+
+    def test_slices_and_fields(self):
+        self.write('fluid/slices/a.vtr', slice_file(0, 2.0))
+        self.write('fluid/slices/slices.pvd', series((0.02, 'a.vtr')))
+        one = turbidite.load(self.folder).slices[0][0]
+        self.assertEqual((one.time, one.x), (1.0, 200.0))
+        np.testing.assert_allclose((one['p'][3, 5], one['U'][3, 5, 1]), (53 / 0.25, 1.75 / 0.5))
+        for name, kind, text in (('lambda', 'volVectorField', '(1 2 3)'), ('vorticity', 'volVectorField', '(1 2 3)')):
+            self.write(f'fluid/0/{name}', f'FoamFile\n{{\nclass {kind};\n}}\ninternalField uniform {text};\n')
+        self.write('fluid/0/U', 'FoamFile\n{\nclass volVectorField;\n}\ninternalField uniform (1 2 3);\n')
+        field = turbidite.load(self.folder).fields[0]
+        np.testing.assert_allclose(field['U'][0, 0, 0], [2, 4, 6])
+        np.testing.assert_allclose(field['lambda'][0, 0, 0], np.array([1, 2, 3]) / 25000.0)
+        np.testing.assert_allclose(field['vorticity'][0, 0, 0], np.array([1, 2, 3]) / 50.0)
+
+
 if __name__ == '__main__':
     unittest.main()

@@ -7,6 +7,7 @@ import warnings
 import matplotlib
 
 matplotlib.use('Agg')
+import matplotlib.pyplot as plt
 import numpy as np
 from made_up_run import RunFolderTest
 from PIL import Image
@@ -23,7 +24,7 @@ import run_data
 import seeds
 from analysis import concentration, energy, snapshots, weight_balance
 from document.page import Page
-from space import ball_image, camera, chains, free_surface, scene, slices, walls
+from space import ball_image, camera, chains, free_surface, scene, sequence, slices, walls
 
 CASE = """dimension: 3
 domain:
@@ -211,6 +212,22 @@ class Slices(SpaceRun):
         self.assertEqual(self.x.pressure[3, 5], 3 + 10 * 5)  # y runs fastest in the file
         np.testing.assert_allclose(self.z.velocity[3, 5], [2.75, 1.75, 1.25])
         np.testing.assert_allclose(self.x.velocity[3, 5], [2.0, 1.75, 2.75])
+
+    def test_panels_show_the_vertical_velocity_with_rows_upwards(self):
+        figure = slices.velocity_panel(self.run_data, self.z, self.grains(), 5.0)
+        image = figure.axes[0].images[0]
+        self.assertEqual((image.origin, float(image.get_array()[3, 5])), ('lower', 1.75))
+        self.z.covered[0] = 1.0
+        free = self.z.pressure[1:].mean()
+        self.assertAlmostEqual(float(slices.level_free(self.z)[3, 5]), 41 - free)
+        plt.close('all')
+
+    def test_side_views_have_the_floor_below(self):
+        frame = scene.frame(self.run_data, [self.grains()], camera.SIDE)
+        figure = sequence.panel(self.run_data, frame, self.grains(), 5.0)
+        image = figure.axes[0].images[0]
+        self.assertEqual(image.origin, 'lower')
+        plt.close('all')
 
     def test_spheres_are_cut(self):
         cut = slices.cut_grains(self.run_data, self.z, self.grains())
