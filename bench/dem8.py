@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The benchmark of bulk solids of Dosta et al. (Comput. Phys. Commun. 296 (2024) 109066): counts of our runs beside those
-of other codes (bench/dem8_silo.csv), and the grains of the drum.
+"""The benchmark of bulk solids of Dosta et al. (Comput. Phys. Commun. 296 (2024) 109066): our runs beside other codes
+(bench/dem8_silo.csv; docs/bulk-cases.md says where the numbers of drum and impact were read), and the grains of the drum.
 
     bench/dem8.py silo RUN [FROM TO]    of configs/silo.yaml: spheres above the lip since the gate opened, and the flow, ours
                                         and theirs from FROM to TO [s] as well
-    bench/dem8.py drum RUN              of configs/drum.yaml: M1 in two quarters of the drum
+    bench/dem8.py drum RUN              of configs/drum.yaml: M1 in two quarters of the drum, per 30,000
+    bench/dem8.py impact RUN            of configs/impact.yaml: how far the ball has come
     bench/dem8.py drum-grains [SHARE]   prints the grains of a SHARE of the drum's depth (1/5) as CSV: of all of it, 1,
                                         between end walls, of less between cyclic sides
 """
@@ -27,8 +28,16 @@ STEADY = (1.0, 3.0)  # s, between which the published flow is taken
 # The drum in D = 2 mm: M1 of radius 0.5 D above M2 of radius 1 D.
 DRUM_RADIUS, DRUM_DEPTH, DRUM_AXIS = 50.0, 30.0, 51.0
 DRUM_LAYERS = ((8000, 1.0, 2.0, 'M2'), (30000, 0.5, 2.5, 'default'))  # count, radius [D], density, material
+DRUM_M1 = 30000
+TURN_WIDTH = 0.5    # s
+DRUM_LIGGGHTS = ('17000 between 1.4 and 3.4 s, at which it is smallest', '12200 after that')
 SPACING = 1.04      # over the diameter, along x and y
 UNEVEN = 0.015      # of the diameter, so that it is no lattice
+
+BALL_STARTS = 75.12  # D above the floor, at 5 m/s
+IMPACTS = {25: 'deepest -0.139 and -0.138 m at 0.030 s, in the end -0.013 to -0.07 m among eight codes',
+           50: 'deepest -0.139 m at 0.044 s, in the end -0.108 and -0.132 m',
+           100: 'in the end -0.0909 and -0.0905 m, no rebound'}
 
 
 def silo(run, between=None):
@@ -75,12 +84,46 @@ def outputs(run):
 
 
 def drum(run):
-    axis = DRUM_AXIS * run.scale('D')
-    print(f'{"t [s]":>6} {"right above":>12} {"left below":>11}   M1 in these quarters of the drum')
+    print_quarters([(time, grains.centres, grains.radii) for time, grains in outputs(run)], run.scale('D'))
+
+
+def print_quarters(states, d):
+    """M1 in two quarters of the drum, of [(time [s], centres [m], radii [m])]."""
+    rows = []
+    print(f'{"t [s]":>6} {"right above":>12} {"left below":>11}   M1 in these quarters of the drum, per {DRUM_M1}')
+    for time, centres, radii in states:
+        x, y = (centres[:, k] - DRUM_AXIS * d for k in (0, 1))
+        small = radii < 0.75 * d
+        quarters = [DRUM_M1 * (small & side).sum() / small.sum() for side in ((x > 0) & (y > 0), (x < 0) & (y < 0))]
+        rows.append((time, quarters[1]))
+        print(f'{time:6.2f} {quarters[0]:12.0f} {quarters[1]:11.0f}')
+    print('\nleft below, turns: ' + ', '.join(f'{count:.0f} at {time:.2f} s' for time, count in turns(rows)))
+    print('LIGGGHTS:          ' + ', '.join(DRUM_LIGGGHTS))
+
+
+def turns(rows):
+    """Of [(time, count)], those that are the largest or smallest within TURN_WIDTH on either side."""
+    found = []
+    for time, count in rows[1:-1]:
+        near = [c for t, c in rows if abs(t - time) <= TURN_WIDTH]
+        if count in (min(near), max(near)) and rows[0][0] + TURN_WIDTH <= time <= rows[-1][0] - TURN_WIDTH:
+            found.append((time, count))
+    return found
+
+
+def impact(run):
+    """The ball's displacement from where the benchmark's ball begins, 0.1502 m above the floor."""
+    rows = []
     for time, grains in outputs(run):
-        x, y = (grains.centres[:, k] - axis for k in (0, 1))
-        small = grains.radii < 0.75 * run.scale('D')
-        print(f'{time:6.2f} {int((small & (x > 0) & (y > 0)).sum()):12d} {int((small & (x < 0) & (y < 0)).sum()):11d}')
+        ball = int(grains.radii.argmax())
+        rows.append((time, grains.centres[ball, 1] - BALL_STARTS * run.scale('D')))
+    for time, way in rows[::max(1, len(rows) // 20)]:
+        print(f'{time:7.4f} s {way:8.4f} m')
+    time, deepest = min(rows, key=lambda row: row[1])
+    print(f'\ndeepest {deepest:.4f} m at {time:.4f} s, in the end {rows[-1][1]:.4f} m at {rows[-1][0]:.4f} s')
+    thousands = round(len(grains.radii) / 1000)
+    if thousands in IMPACTS:
+        print(f'LIGGGHTS and MUSEN, {thousands},000 spheres: {IMPACTS[thousands]}')
 
 
 def drum_grains(share):
@@ -129,6 +172,8 @@ def main(words):
         silo(run_data.load_run(words[1]), tuple(float(word) for word in words[2:]) or None)
     elif words[:1] == ['drum'] and len(words) == 2:
         drum(run_data.load_run(words[1]))
+    elif words[:1] == ['impact'] and len(words) == 2:
+        impact(run_data.load_run(words[1]))
     elif words and words[0] == 'drum-grains' and len(words) <= 2:
         try:
             print_grains(float(words[1]) if len(words) == 2 else 0.2)

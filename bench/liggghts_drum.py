@@ -1,0 +1,134 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The benchmark's drum in LIGGGHTS, from the state in which ours begins (docs/bulk-cases.md).
+
+    bench/liggghts_drum.py RUN [--seconds 2] [--modulus 1e7] [--step 1.5e-5] [--ranks 2] [--out FOLDER]
+
+RUN is the run in which the spheres have come to rest in the drum at rest; its last output is the state. Both codes have the
+same spheres, the drum with its end walls, which turn, and restitution and friction by pair of materials. Printed is what
+`bench/dem8.py drum` prints of ours. The drum is a mesh of facets that touch the cylinder from outside; Debian's package
+liggghts is what runs.
+"""
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / 'bench'))
+
+import dem8
+import grain_files
+import liggghts_silo as liggghts
+import run_data
+
+# Of M1, M2 and steel with each other (Dosta et al. 2024, as the peclet-examples benchmark page of 2026 gives them).
+RESTITUTION = (0.5, 0.45, 0.4, 0.45, 0.4, 0.4, 0.4, 0.4, 0.6)
+FRICTION = (0.3, 0.2, 0.2, 0.2, 0.4, 0.2, 0.2, 0.2, 0.5)
+FACETS = 128
+SPIN = 2.0      # rad/s, counter-clockwise about z
+SAMPLED = 0.05  # s
+
+
+def facet(a, b, c):
+    normal = np.cross(b - a, c - a)
+    return ['facet normal {:.9g} {:.9g} {:.9g}'.format(*(normal / np.linalg.norm(normal))), 'outer loop',
+            *('vertex {:.9g} {:.9g} {:.9g}'.format(*corner) for corner in (a, b, c)), 'endloop', 'endfacet']
+
+
+def stl_of_drum(axis, radius, depth):
+    angles = np.arange(FACETS + 1) * 2.0 * np.pi / FACETS
+    rim = radius / np.cos(np.pi / FACETS) * np.column_stack([np.cos(angles), np.sin(angles)]) + axis
+    lines = ['solid drum']
+    for first, second in zip(rim, rim[1:]):
+        a, b = (np.array([*first, z]) for z in (0.0, depth))
+        c, d = (np.array([*second, z]) for z in (0.0, depth))
+        lines += facet(a, c, b) + facet(c, d, b)
+        for p, q, z in ((a, c, 0.0), (b, d, depth)):
+            lines += facet(np.array([axis, axis, z]), p, q)
+    return '\n'.join(lines + ['endsolid drum', ''])
+
+
+def state_of(run):
+    arrays = grain_files.read_arrays(grain_files.grain_series(run)[-1][1])
+    triples = [arrays[name].reshape(-1, 3) for name in ('Points', 'velocity', 'angular_velocity')]
+    return liggghts.State(*triples, arrays['radius'], arrays['density'])
+
+
+def data_file(state, size, small):
+    text = liggghts.data_file(state, size).replace('2 atom types', '3 atom types')
+    head, _, rest = text.partition('Atoms\n\n')
+    atoms, _, motion = rest.partition('\n\nVelocities')
+    rows = [row.split() for row in atoms.splitlines()]
+    for row, is_small in zip(rows, small):
+        row[1] = '1' if is_small else '2'
+    return head + 'Atoms\n\n' + '\n'.join(' '.join(row) for row in rows) + '\n\nVelocities' + motion
+
+
+def matrix(values):
+    return '3 ' + ' '.join(f'{value:g}' for value in values)
+
+
+def input_of(options, axis):
+    steps, every = round(options.seconds / options.step), round(SAMPLED / options.step)
+    runs = '\n'.join(f'run {every} pre {"no" if k else "yes"} post no\n{liggghts.written(f"state-{k + 1}.txt")}'
+                     for k in range(steps // every))
+    steel = options.modulus * liggghts.STEEL_OVER_GRAINS
+    return f'''hard_particles yes
+soft_particles yes
+units si
+atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+processors {options.ranks} 1 1
+read_data state.data
+neighbor {options.skin:g} bin
+neigh_modify delay 0
+fix young all property/global youngsModulus peratomtype {options.modulus:g} {options.modulus:g} {steel:g}
+fix poisson all property/global poissonsRatio peratomtype {" ".join(3 * [f"{liggghts.POISSON:g}"])}
+fix restitution all property/global coefficientRestitution peratomtypepair {matrix(RESTITUTION)}
+fix friction all property/global coefficientFriction peratomtypepair {matrix(FRICTION)}
+pair_style gran model hertz tangential history
+pair_coeff * *
+timestep {options.step:g}
+fix gravity all gravity 9.81 vector 0.0 -1.0 0.0
+fix drum all mesh/surface file drum.stl type 3
+fix walls all wall/gran model hertz tangential history mesh n_meshes 1 meshes drum
+fix turning all move/mesh mesh drum rotate origin {axis:g} {axis:g} 0.0 axis 0.0 0.0 1.0 period {2.0 * np.pi / SPIN:.9g}
+fix motion all nve/sphere
+thermo_style custom step atoms ke
+thermo 1000000000
+thermo_modify lost ignore norm no
+{runs}
+'''
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('run', metavar='RUN')
+    parser.add_argument('--seconds', type=float, default=2.0, help='simulated time')
+    parser.add_argument('--modulus', type=float, default=1e7, help="Young's modulus of the spheres [Pa]")
+    parser.add_argument('--step', type=float, default=1.5e-5, help='[s]')
+    parser.add_argument('--ranks', type=int, default=2)
+    parser.add_argument('--skin', type=float, default=2e-4, help="LIGGGHTS' neighbour skin [m]")
+    parser.add_argument('--out', default='runs/liggghts-drum', help='folder of what is written')
+    options = parser.parse_args()
+    run = run_data.load_run(options.run)
+    d, folder = run.scale('D'), Path(options.out)
+    folder.mkdir(parents=True, exist_ok=True)
+    state, size = state_of(run), [float(v) * d for v in run.case['domain.size'].strip('[]').split(',')]
+    small, axis = state.radii < 0.75 * d, dem8.DRUM_AXIS * d
+    (folder / 'state.data').write_text(data_file(state, size, small))
+    (folder / 'drum.stl').write_text(stl_of_drum(axis, dem8.DRUM_RADIUS * d, dem8.DRUM_DEPTH * d))
+    seconds = liggghts.run_liggghts(folder, input_of(options, axis), options.ranks)
+    dumps = [liggghts.read_dump(folder / f'state-{k + 1}.txt') for k in range(len(seconds))]
+    dem8.print_quarters([(0.0, state.centres, state.radii)] + [
+        ((k + 1) * SAMPLED, liggghts.place(dump), dump['radius']) for k, dump in enumerate(dumps)], d)
+    print(f'{sum(seconds):.4g} s of wall time, {len(dumps[-1]["radius"])} of {len(small)} spheres in the drum')
+
+
+if __name__ == '__main__':
+    main()
