@@ -19,7 +19,7 @@ import grain_files
 
 GRAINS = 'grains'  # in RunData.fingerprints
 BARE_FROM = 0.9  # of the width: grains that reach so far at first fill the box
-SAME_FRONT = 0.01    # D
+SAME_FRONT = 0.01  # D
 FEWEST_IN_COLUMN = 2  # free grains: one that falls by itself is none
 CONTINUED = ('time.end', 'output.', 'limits.', 'fluid.ranks', 'grains.ranks')  # keys that change no window
 
@@ -74,11 +74,13 @@ class RunData:
         return arrived[0] if arrived else None
 
     def front_is_free(self):
-        """Whether the front of the history, of all grains, is that of those whose motion is not prescribed: at first no
-        held grain is farther to the right."""
-        front = self.column('front_x')[1]
-        _, free = free_at_first(self)
-        return not len(front) or free is None or front[0] <= free + SAME_FRONT
+        """Whether the front of the history, of all grains, is that of those whose motion is not prescribed: in the first
+        output no held grain is farther to the right."""
+        grains, extent = grain_files.first_grains(self), first_extent(self)
+        if grains is None or grains.prescribed is None or extent is None:
+            return True
+        reaches = grains.positions()[:, 0] + grains.radii
+        return reaches.max() / self.scale('D') <= extent[1][0] + SAME_FRONT
 
     def has_cyclic_floor(self):
         """What leaves at the bottom comes in at the top."""
