@@ -66,42 +66,15 @@ def data_file(state, size, small):
     return head + 'Atoms\n\n' + '\n'.join(' '.join(row) for row in rows) + '\n\nVelocities' + motion
 
 
-def matrix(values):
-    return '3 ' + ' '.join(f'{value:g}' for value in values)
-
-
-def input_of(options, axis):
+def input_of(options, axis, gravity):
     steps, every = round(options.seconds / options.step), round(SAMPLED / options.step)
     runs = '\n'.join(f'run {every} pre {"no" if k else "yes"} post no\n{liggghts.written(f"state-{k + 1}.txt")}'
                      for k in range(steps // every))
-    steel = options.modulus * liggghts.STEEL_OVER_GRAINS
-    return f'''hard_particles yes
-soft_particles yes
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-processors {options.ranks} 1 1
-read_data state.data
-neighbor {options.skin:g} bin
-neigh_modify delay 0
-fix young all property/global youngsModulus peratomtype {options.modulus:g} {options.modulus:g} {steel:g}
-fix poisson all property/global poissonsRatio peratomtype {" ".join(3 * [f"{liggghts.POISSON:g}"])}
-fix restitution all property/global coefficientRestitution peratomtypepair {matrix(RESTITUTION)}
-fix friction all property/global coefficientFriction peratomtypepair {matrix(FRICTION)}
-pair_style gran model hertz tangential history
-pair_coeff * *
-timestep {options.step:g}
-fix gravity all gravity 9.81 vector 0.0 -1.0 0.0
+    moduli = [options.modulus, options.modulus, options.modulus * liggghts.STEEL_OVER_GRAINS]
+    return liggghts.head_of(moduli, RESTITUTION, FRICTION, gravity, options.step, options.skin, options.ranks) + f'''\
 fix drum all mesh/surface file drum.stl type 3
 fix walls all wall/gran model hertz tangential history mesh n_meshes 1 meshes drum
 fix turning all move/mesh mesh drum rotate origin {axis:g} {axis:g} 0.0 axis 0.0 0.0 1.0 period {2.0 * np.pi / SPIN:.9g}
-fix motion all nve/sphere
-thermo_style custom step atoms ke
-thermo 1000000000
-thermo_modify lost ignore norm no
 {runs}
 '''
 
@@ -123,7 +96,7 @@ def main():
     small, axis = state.radii < 0.75 * d, dem8.DRUM_AXIS * d
     (folder / 'state.data').write_text(data_file(state, size, small))
     (folder / 'drum.stl').write_text(stl_of_drum(axis, dem8.DRUM_RADIUS * d, dem8.DRUM_DEPTH * d))
-    seconds = liggghts.run_liggghts(folder, input_of(options, axis), options.ranks)
+    seconds = liggghts.run_liggghts(folder, input_of(options, axis, run.record['g']), options.ranks)
     dumps = [liggghts.read_dump(folder / f'state-{k + 1}.txt') for k in range(len(seconds))]
     dem8.print_quarters([(0.0, state.centres, state.radii)] + [
         ((k + 1) * SAMPLED, liggghts.place(dump), dump['radius']) for k, dump in enumerate(dumps)], d)

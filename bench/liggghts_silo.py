@@ -201,8 +201,16 @@ def data_file(state, size):
 
 
 def head_of_input(silo, modulus, step, skin, ranks):
-    """Everything but walls and runs. Two ranks meet in the plane through the silo's axis."""
-    matrix = lambda pair: f'2 {pair["grains"]:g} {pair["steel"]:g} {pair["steel"]:g} {pair["steel"]:g}'
+    """Of spheres and steel. Two ranks meet in the plane through the silo's axis."""
+    pairs = lambda of: [of['grains'], of['steel'], of['steel'], of['steel']]
+    return head_of([modulus, modulus * STEEL_OVER_GRAINS], pairs(silo.restitution), pairs(silo.friction), silo.gravity, step,
+                   skin, ranks)
+
+
+def head_of(moduli, restitution, friction, gravity, step, skin, ranks):
+    """Everything but walls and runs; moduli by type, restitution and friction by pair of types, row after row."""
+    words = lambda values: ' '.join(f'{value:g}' for value in values)
+    pairs = lambda values: f'{len(moduli)} {words(values)}'
     return f'''hard_particles yes
 soft_particles yes
 units si
@@ -215,14 +223,14 @@ processors {ranks} 1 1
 read_data state.data
 neighbor {skin:g} bin
 neigh_modify delay 0
-fix young all property/global youngsModulus peratomtype {modulus:g} {modulus * STEEL_OVER_GRAINS:g}
-fix poisson all property/global poissonsRatio peratomtype {POISSON:g} {POISSON:g}
-fix restitution all property/global coefficientRestitution peratomtypepair {matrix(silo.restitution)}
-fix friction all property/global coefficientFriction peratomtypepair {matrix(silo.friction)}
+fix young all property/global youngsModulus peratomtype {words(moduli)}
+fix poisson all property/global poissonsRatio peratomtype {words(len(moduli) * [POISSON])}
+fix restitution all property/global coefficientRestitution peratomtypepair {pairs(restitution)}
+fix friction all property/global coefficientFriction peratomtypepair {pairs(friction)}
 pair_style gran model hertz tangential history
 pair_coeff * *
 timestep {step:g}
-fix gravity all gravity {silo.gravity:g} vector 0.0 -1.0 0.0
+fix gravity all gravity {gravity:g} vector 0.0 -1.0 0.0
 fix motion all nve/sphere
 thermo_style custom step atoms ke
 thermo 1000000000
