@@ -42,7 +42,7 @@ TEST(SoftState, GoesOnInEveryDigitWithItsSprings) {
     without.host.write(whole.bodies);
     second.bodies = without.bodies = whole.bodies;
     for (Scene* scene : {&whole, &second, &without})
-        EXPECT_GT(scene->play(4000, coarse).contacts, 15);
+        EXPECT_GT(scene->play(4000, coarse).contacts, 18);
     expect_equal(second.bodies, whole.bodies);
     EXPECT_NE(without.bodies.position, whole.bodies.position);
 }
