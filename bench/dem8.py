@@ -28,7 +28,7 @@ STEADY = (1.0, 3.0)  # s, between which the published flow is taken
 # The drum in D = 2 mm: M1 of radius 0.5 D above M2 of radius 1 D.
 DRUM_RADIUS, DRUM_DEPTH, DRUM_AXIS = 50.0, 30.0, 51.0
 DRUM_LAYERS = ((8000, 1.0, 2.0, 'M2'), (30000, 0.5, 2.5, 'default'))  # count, radius [D], density, material
-DRUM_M1 = 30000
+DRUM_M1 = DRUM_LAYERS[1][0]
 TURN_WIDTH = 0.5    # s
 DRUM_LIGGGHTS = ('17000 between 1.4 and 3.4 s, at which it is smallest', '12200 after that')
 SPACING = 1.04      # over the diameter, along x and y
@@ -93,12 +93,16 @@ def print_quarters(states, d):
     print(f'{"t [s]":>6} {"right above":>12} {"left below":>11}   M1 in these quarters of the drum, per {DRUM_M1}')
     for time, centres, radii in states:
         x, y = (centres[:, k] - DRUM_AXIS * d for k in (0, 1))
-        small = radii < 0.75 * d
+        small = is_m1(radii, d)
         quarters = [DRUM_M1 * (small & side).sum() / small.sum() for side in ((x > 0) & (y > 0), (x < 0) & (y < 0))]
         rows.append((time, quarters[1]))
         print(f'{time:6.2f} {quarters[0]:12.0f} {quarters[1]:11.0f}')
     print('\nleft below, turns: ' + ', '.join(f'{count:.0f} at {time:.2f} s' for time, count in turns(rows)))
     print('LIGGGHTS:          ' + ', '.join(DRUM_LIGGGHTS))
+
+
+def is_m1(radii, d):
+    return radii < 0.75 * d
 
 
 def turns(rows):

@@ -31,12 +31,6 @@ SPIN = 2.0      # rad/s, counter-clockwise about z
 SAMPLED = 0.05  # s
 
 
-def facet(a, b, c):
-    normal = np.cross(b - a, c - a)
-    return ['facet normal {:.9g} {:.9g} {:.9g}'.format(*(normal / np.linalg.norm(normal))), 'outer loop',
-            *('vertex {:.9g} {:.9g} {:.9g}'.format(*corner) for corner in (a, b, c)), 'endloop', 'endfacet']
-
-
 def stl_of_drum(axis, radius, depth):
     angles = np.arange(FACETS + 1) * 2.0 * np.pi / FACETS
     rim = radius / np.cos(np.pi / FACETS) * np.column_stack([np.cos(angles), np.sin(angles)]) + axis
@@ -44,39 +38,19 @@ def stl_of_drum(axis, radius, depth):
     for first, second in zip(rim, rim[1:]):
         a, b = (np.array([*first, z]) for z in (0.0, depth))
         c, d = (np.array([*second, z]) for z in (0.0, depth))
-        lines += facet(a, c, b) + facet(c, d, b)
+        lines += liggghts.facet(a, c, b) + liggghts.facet(c, d, b)
         for p, q, z in ((a, c, 0.0), (b, d, depth)):
-            lines += facet(np.array([axis, axis, z]), p, q)
+            lines += liggghts.facet(np.array([axis, axis, z]), p, q)
     return '\n'.join(lines + ['endsolid drum', ''])
 
 
-def state_of(run):
-    arrays = grain_files.read_arrays(grain_files.grain_series(run)[-1][1])
-    triples = [arrays[name].reshape(-1, 3) for name in ('Points', 'velocity', 'angular_velocity')]
-    return liggghts.State(*triples, arrays['radius'], arrays['density'])
-
-
-def data_file(state, size, small):
-    text = liggghts.data_file(state, size).replace('2 atom types', '3 atom types')
-    head, _, rest = text.partition('Atoms\n\n')
-    atoms, _, motion = rest.partition('\n\nVelocities')
-    rows = [row.split() for row in atoms.splitlines()]
-    for row, is_small in zip(rows, small):
-        row[1] = '1' if is_small else '2'
-    return head + 'Atoms\n\n' + '\n'.join(' '.join(row) for row in rows) + '\n\nVelocities' + motion
-
-
 def input_of(options, axis, gravity):
-    steps, every = round(options.seconds / options.step), round(SAMPLED / options.step)
-    runs = '\n'.join(f'run {every} pre {"no" if k else "yes"} post no\n{liggghts.written(f"state-{k + 1}.txt")}'
-                     for k in range(steps // every))
     moduli = [options.modulus, options.modulus, options.modulus * liggghts.STEEL_OVER_GRAINS]
     return liggghts.head_of(moduli, RESTITUTION, FRICTION, gravity, options.step, options.skin, options.ranks) + f'''\
 fix drum all mesh/surface file drum.stl type 3
 fix walls all wall/gran model hertz tangential history mesh n_meshes 1 meshes drum
 fix turning all move/mesh mesh drum rotate origin {axis:g} {axis:g} 0.0 axis 0.0 0.0 1.0 period {2.0 * np.pi / SPIN:.9g}
-{runs}
-'''
+''' + liggghts.runs(round(options.seconds / options.step), max(1, round(options.seconds / SAMPLED)))
 
 
 def main():
@@ -92,9 +66,10 @@ def main():
     run = run_data.load_run(options.run)
     d, folder = run.scale('D'), Path(options.out)
     folder.mkdir(parents=True, exist_ok=True)
-    state, size = state_of(run), [float(v) * d for v in run.case['domain.size'].strip('[]').split(',')]
-    small, axis = state.radii < 0.75 * d, dem8.DRUM_AXIS * d
-    (folder / 'state.data').write_text(data_file(state, size, small))
+    size = [float(v) * d for v in run.case['domain.size'].strip('[]').split(',')]
+    state = liggghts.read_state(grain_files.grain_series(run)[-1][1], size)
+    small, axis = dem8.is_m1(state.radii, d), dem8.DRUM_AXIS * d
+    (folder / 'state.data').write_text(liggghts.data_file(state, size, np.where(small, 1, 2)))
     (folder / 'drum.stl').write_text(stl_of_drum(axis, dem8.DRUM_RADIUS * d, dem8.DRUM_DEPTH * d))
     seconds = liggghts.run_liggghts(folder, input_of(options, axis, run.record['g']), options.ranks)
     dumps = [liggghts.read_dump(folder / f'state-{k + 1}.txt') for k in range(len(seconds))]

@@ -180,23 +180,27 @@ def stl_of_hopper(silo, facets, rings):
     for i in range(rings):
         for k in range(facets):
             a, b, c, d = points[i, k], points[i, (k + 1) % facets], points[i + 1, (k + 1) % facets], points[i + 1, k]
-            for corners in ((a, b, c), (a, c, d)):
-                normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-                lines += ['facet normal {:.9g} {:.9g} {:.9g}'.format(*(normal / np.linalg.norm(normal))), 'outer loop',
-                          *('vertex {:.9g} {:.9g} {:.9g}'.format(*corner) for corner in corners), 'endloop', 'endfacet']
+            lines += facet(a, b, c) + facet(a, c, d)
     return '\n'.join(lines + ['endsolid hopper', ''])
 
 
-def data_file(state, size):
+def facet(a, b, c):
+    normal = np.cross(b - a, c - a)
+    return ['facet normal {:.9g} {:.9g} {:.9g}'.format(*(normal / np.linalg.norm(normal))), 'outer loop',
+            *('vertex {:.9g} {:.9g} {:.9g}'.format(*corner) for corner in (a, b, c)), 'endloop', 'endfacet']
+
+
+def data_file(state, size, types=None):
+    """Spheres of these types, of 1 unless given; there is one type more, that of the walls."""
     number = range(1, len(state.radii) + 1)
     rows = lambda table: '\n'.join(' '.join(f'{v:.12g}' for v in row) for row in table)
-    one = np.ones(len(state.radii))
+    types = np.ones(len(state.radii)) if types is None else types
     # LIGGGHTS refuses places beyond its box; ours leaves grains there until no part of them is inside.
     margin = 2.0 * state.radii.max()
     bounds = '\n'.join(f'{-margin:.12g} {length + margin:.12g} {axis}lo {axis}hi' for axis, length in zip('xyz', size))
-    atoms = np.column_stack([number, one, 2.0 * state.radii, state.densities, state.centres])
+    atoms = np.column_stack([number, types, 2.0 * state.radii, state.densities, state.centres])
     motion = np.column_stack([number, state.velocities, state.spins])
-    return (f'spheres\n\n{len(one)} atoms\n2 atom types\n\n{bounds}\n\n'
+    return (f'spheres\n\n{len(types)} atoms\n{types.max() + 1:g} atom types\n\n{bounds}\n\n'
             f'Atoms\n\n{rows(atoms)}\n\nVelocities\n\n{rows(motion)}\n')
 
 

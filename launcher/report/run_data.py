@@ -79,7 +79,7 @@ class RunData:
         grains, extent = grain_files.first_grains(self), first_extent(self)
         if grains is None or grains.prescribed is None or extent is None:
             return True
-        reaches = grains.positions()[:, 0] + grains.radii
+        reaches = grains.centres[:, 0] + grains.radii
         return reaches.max() / self.scale('D') <= extent[1][0] + SAME_FRONT
 
     def has_cyclic_floor(self):

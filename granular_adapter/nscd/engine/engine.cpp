@@ -181,6 +181,10 @@ void Engine::look_ahead(const std::vector<Twist>& free, double dt) {
 /// points; then how far to look is what they ask for, at most a diameter.
 bool Engine::looks_farther(const std::vector<Twist>& found, double dt) {
     if (!in_space()) return false;  // in the plane all digits stay
+    // The own ones: copies without contacts here have kept the velocities that they came with.
+    const auto own = static_cast<std::ptrdiff_t>(bodies_.size());
+    const double asked = bound({found.begin(), found.begin() + own}, dt);
+    if (!(asked > reach_)) return false;
     double smallest = std::numeric_limits<double>::infinity(), largest_radius = 0.0;
     for (const double radius : bodies_.radius) {
         smallest = std::min(smallest, radius);
@@ -190,9 +194,7 @@ bool Engine::looks_farther(const std::vector<Twist>& found, double dt) {
         smallest = -largest(shared_.ranks->ranks(), -smallest);
         largest_radius = largest(shared_.ranks->ranks(), largest_radius);
     }
-    const auto own = static_cast<std::ptrdiff_t>(bodies_.size());
-    const double wanted = std::min(bound({found.begin(), found.begin() + own}, dt),
-                                   std::max(reach_, 2.0 * largest_radius));
+    const double wanted = std::min(asked, std::max(reach_, 2.0 * largest_radius));
     if (!(wanted > reach_ + most_overlooked * smallest)) return false;
     reach_ = wanted;
     return true;
