@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -141,6 +142,11 @@ std::vector<std::string> CheckpointSets::names() const {
     };
     std::sort(names.begin(), names.end(), newer);
     return names;
+}
+
+std::int64_t CheckpointSets::newest_windows() const {
+    const auto sets = names();
+    return sets.empty() ? 0 : std::strtoll(sets.front().c_str() + 1, nullptr, 10);
 }
 
 void CheckpointSets::keep_newest(std::size_t count) const {

@@ -38,6 +38,9 @@ class CheckpointSets {
     /// Names ("w00000480"), newest first.
     std::vector<std::string> names() const;
 
+    /// Windows done in the newest one; 0 if there is none.
+    std::int64_t newest_windows() const;
+
     /// The manifest of a set, all of whose files were compared with it. Throws Failure (bad input)
     /// naming what is missing or damaged, and whose it is.
     Manifest verified(const std::string& name) const;

@@ -47,8 +47,10 @@ std::string coefficient(const Settings& s, const std::string& name) {
 /// The first law of contacts beyond Coulomb friction and restitution.
 std::string law(const Settings& s) {
     if (is_text(s, "contact.law", "coulomb")) return named(s, "contact.law");
-    for (const char* kind : {"contact.adhesion", "contact.film"})
-        if (is_text(s, kind, "none")) return named(s, kind);
+    if (is_text(s, "contact.adhesion", "none")) return named(s, "contact.adhesion");
+    // Without a liquid there are no films.
+    const bool dry = s.has("fluid.enabled") && !s.flag("fluid.enabled");
+    if (!dry && is_text(s, "contact.film", "none")) return named(s, "contact.film");
     for (const char* number : {"restitution_tangential", "rolling_friction", "torsion_friction"})
         if (std::string found = coefficient(s, number); !found.empty()) return found;
     return {};

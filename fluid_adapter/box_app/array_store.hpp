@@ -87,7 +87,7 @@ class ArrayStore : public FluidStore {
     const RankGroup& ranks() const override { return ranks_; }
     double density() const override { return density_; }
     double equal_height() const override { return std::numeric_limits<double>::infinity(); }
-    bool begin(const Window&) override { return false; }
+    MovedSides begin(const Window&) override { return {}; }
     bool finished() const override { return false; }
     bool observed() const override { return false; }
     void show(const std::vector<ImmersedGrain>&) override {}

@@ -77,16 +77,16 @@ void LayerFields::write_pressure(const double* p, bool floating) {
     field_.set_pressure(p, floating ? rows_.first(p) : 0.0);
 }
 
-bool LayerFields::set_sides(double time, double step) {
-    bool any = false;
+MovedSides LayerFields::set_sides(double time, double step) {
+    MovedSides moved;
     for (std::size_t side = 0; side < box_sides.size(); ++side) {
         if (!motions_[side].motion) continue;
-        any = true;
         const Vec3 v = motions_[side].velocity(time, step);
+        moved.add(side, v);
         for (std::size_t axis = 0; axis < 3; ++axis)
             std::fill(held_[axis][side].begin(), held_[axis][side].end(), v[axis]);
     }
-    return any;
+    return moved;
 }
 
 BoxStore::BoxStore(const Settings& settings, const RankGroup& ranks,
@@ -123,7 +123,7 @@ double BoxStore::equal_height() const {
     return stretched(domain_) ? domain_.equal_height : std::numeric_limits<double>::infinity();
 }
 
-bool BoxStore::begin(const Window& window) {
+MovedSides BoxStore::begin(const Window& window) {
     windows_ = window.index + 1;
     return fields_->set_sides(window.time, window.step);
 }

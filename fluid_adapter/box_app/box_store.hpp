@@ -33,7 +33,7 @@ class LayerFields final : public RowFields {
     VelocityOnSides side_velocity() const override { return held_; }
 
     /// Sets the sides for the window [time, time + step]. Returns whether any moves.
-    bool set_sides(double time, double step);
+    MovedSides set_sides(double time, double step);
 
     const VelocityOnSides& held() const { return held_; }
 
@@ -55,7 +55,7 @@ class BoxStore final : public FluidStore {
     const RankGroup& ranks() const override { return ranks_; }
     double density() const override { return run_.fluid_density; }
     double equal_height() const override;
-    bool begin(const Window& window) override;
+    MovedSides begin(const Window& window) override;
     bool finished() const override { return windows_ >= run_.windows; }
     bool observed() const override { return false; }
     void show(const std::vector<ImmersedGrain>&) override {}

@@ -4,6 +4,7 @@
 // of a window. Fluxes are face velocities: phi over |S|. Valid C++17.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -57,16 +58,17 @@ using BoxForce = std::array<double, 3>;
 /// Impulses of viscosity and pressure, per mass, that a window begins with: f = dt nu L u and
 /// -dt G p, with the p kept.
 struct ImpulsesOfWindow {
-    double dt = 0.0;   ///< [s]
-    VelocityRows f;    ///< [m/s]
-    BoxForce sum_f{};  ///< over this rank's cells, weighted by volumes
+    double dt = 0.0;     ///< [s]
+    VelocityRows f;      ///< [m/s]
+    BoxForce sum_f{};    ///< over this rank's cells, weighted by volumes
+    double sum_u = 0.0;  ///< of all components with them, finite only if each value is [m/s]
 };
 
 /// phi1 where it is kept for transport, which otherwise recomputes it as S.u + e.
 struct HeldFlux {
     FaceValues flux, last;               ///< this window's; the last one's, in second order
     bool held = false;                   ///< flux is that of this window
-    std::optional<double> extrapolated;  ///< by how many windows, while step 1 holds the flux
+    std::optional<double> extrapolated;  ///< by how many windows, while it is found
 
     /// Makes room for the flux.
     void resize(const BoxLayers& layers) {
@@ -86,11 +88,18 @@ struct HeldFlux {
                         layers.in_space() ? layer(layers, 2, j) : nullptr);
     }
 
-    /// Of a row of phi1, which begins at `first`.
-    void hold_middle(int axis, std::size_t first, int count, const double* row) {
+    /// Of faces of phi1, which begin at `first`.
+    void hold_middle(int axis, std::size_t first, int count, const double* faces) {
         if (extrapolated)
-            extrapolate(count, *extrapolated, row, last[axis].data() + first,
+            extrapolate(count, *extrapolated, faces, last[axis].data() + first,
                         flux[axis].data() + first);
+    }
+    /// The same where phi1 itself is held in first order.
+    void hold(int axis, std::size_t first, int count, const double* faces) {
+        if (extrapolated)
+            hold_middle(axis, first, count, faces);
+        else
+            std::copy_n(faces, count, flux[axis].data() + first);
     }
 };
 

@@ -122,6 +122,7 @@ void BoxStep::add_impulses(const VelocityStage::Values& u2, ImpulsesOfWindow& im
 void BoxStep::begin_impulses(ImpulsesOfWindow& impulses) {
     impulses.f.resize(layers_.components(), cells());
     impulses.sum_f = {};
+    impulses.sum_u = 0.0;
     // Of the last window: p^n is in the step's own array.
     p_.begin(pressure());
 }
@@ -139,6 +140,7 @@ void BoxStep::add_impulses(int j, ImpulsesOfWindow& impulses) {
             impulses.sum_f[axis] += layers_.heights.relative(j) * sum_row(layers_.nx, f);
             add_row(layers_.nx, 1.0, f, u);
             differences.correct(axis, j, k, dt, p_, u, u);
+            impulses.sum_u += sum_row(layers_.nx, u);
         }
 }
 
@@ -159,36 +161,23 @@ void BoxStep::hold_flux() {
     held_.held = true;
 }
 
-namespace {
-
-double windows_to_the_middle(bool begins) {
-    return begins ? 0.0 : 0.5;
-}
-
-}  // namespace
-
-FluxReport BoxStep::project_and_hold_middle(double dt, bool begins) {
+/// What finds phi1 passes each row of it to the flux that is held while it has it in cache.
+template <class Find>
+FluxReport BoxStep::with_middle(bool begins, const Find& find) {
     held_.resize(layers_);
-    // The projection passes each row of phi1 to hold_middle while it has it in cache.
-    held_.extrapolated = windows_to_the_middle(begins);
-    const FluxReport report = project(dt);
+    held_.extrapolated = begins ? 0.0 : 0.5;  // windows
+    const FluxReport report = find();
     held_.extrapolated.reset();
     held_.held = true;
     return report;
 }
 
-double BoxStep::hold_middle_flux(double dt, bool begins) {
-    for (int axis = 0; axis < layers_.components(); ++axis) {
-        std::vector<double>& last = held_.last[axis];
-        std::swap(held_.flux[axis], last);  // phi1 is the next window's last flux
-        // flux = 3/2 phi1 - 1/2 of the last window's, which flux has after the swap
-        if (begins) held_.flux[axis] = last;
-        if (!begins) combine(last.size(), -0.5, held_.flux[axis].data(), 1.5, last.data());
-    }
-    FluxCheck check(layers_);
-    check.begin();
-    for (int j = 0; j < layers_.ny; ++j) held_.show_layer(layers_, j, check);
-    return check.over(dt).courant;
+FluxReport BoxStep::project_and_hold_middle(double dt, bool begins) {
+    return with_middle(begins, [&] { return project(dt); });
+}
+
+FluxReport BoxStep::hold_solenoidal_middle(double dt, bool begins) {
+    return with_middle(begins, [&] { return hold_solenoidal_flux(dt); });
 }
 
 void BoxStep::diffuse(double dt, const SeparableSolve::LayerWork& take) {

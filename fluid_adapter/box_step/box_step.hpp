@@ -116,8 +116,8 @@ class BoxStep {
     /// Step 1, which holds that flux.
     FluxReport project_and_hold_middle(double dt, bool begins);
 
-    /// Instead of the flux that is held. Returns its Courant number over dt [s].
-    double hold_middle_flux(double dt, bool begins);
+    /// The same of hold_solenoidal_flux.
+    FluxReport hold_solenoidal_middle(double dt, bool begins);
 
     /// phi1 of the last window over |S| on the faces normal to an axis, laid out like excess.
     std::vector<double>& last_flux(int axis) { return held_.last[axis]; }
@@ -137,6 +137,8 @@ class BoxStep {
     void begin_velocity(const VelocityStage::Values& u);
     void add_impulses(int j, ImpulsesOfWindow& impulses);
     void begin_impulses(ImpulsesOfWindow& impulses);
+    template <class Find>
+    FluxReport with_middle(bool begins, const Find& find);
     void add_side_velocity(double dt);
     BoxForce convective_force(const VelocityStage::Values& u);
 

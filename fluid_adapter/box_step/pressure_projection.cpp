@@ -31,9 +31,7 @@ FluxReport PressureProjection::project(SeparableSolve& pressure, const VelocityP
     begin(pressure, u, dt);
     // One layer beyond either end: e on the faces there needs v1 on both sides of them.
     for (int j = -1; j <= layers_.ny; ++j) correct_layer(j, dt, u);
-    FluxReport report = check_.over(dt);
-    if (held_.extrapolated) report.carried_courant = held_check_.over(dt).courant;
-    return report;
+    return report(dt);
 }
 
 FluxReport PressureProjection::hold_solenoidal_flux(SeparableSolve& pressure,
@@ -42,15 +40,35 @@ FluxReport PressureProjection::hold_solenoidal_flux(SeparableSolve& pressure,
     // Here all of e counts: the flux is to be the nearest to S.u + e.
     kept_ = 1.0;
     begin(pressure, u, dt);
-    const auto at = [&](int axis, int j) { return held_.layer(layers_, axis, j); };
     for (int j = 0; j <= layers_.ny; ++j) {
-        projected(1, j, dt, at(1, j));
-        if (j >= 1) held_.show_layer(layers_, j - 1, check_);
+        hold(1, j, dt, flux_above_);
+        if (j >= 1) check(j - 1);
         for (int axis = 0; j < layers_.ny && axis < layers_.components(); axis += 2)
-            projected(axis, j, dt, at(axis, j));
+            hold(axis, j, dt, axis == 0 ? flux_x_ : flux_z_);
+        flux_below_.swap(flux_above_);
     }
     held_.held = true;
-    return check_.over(dt);
+    return report(dt);
+}
+
+/// The flux of a layer, also into `faces`.
+void PressureProjection::hold(int axis, int j, double dt, Values& faces) {
+    projected(axis, j, dt, faces.data());
+    const std::size_t first = layers_.face_row(axis, j, 0);
+    held_.hold(axis, first, static_cast<int>(faces.size()), faces.data());
+}
+
+/// Layer j, of which flux_x_ to flux_z_ have all faces.
+void PressureProjection::check(int j) {
+    check_.add_layer(j, flux_x_.data(), flux_below_.data(), flux_above_.data(),
+                     layers_.in_space() ? flux_z_.data() : nullptr);
+    if (held_.extrapolated) held_.show_layer(layers_, j, held_check_);
+}
+
+FluxReport PressureProjection::report(double dt) const {
+    FluxReport found = check_.over(dt);
+    if (held_.extrapolated) found.carried_courant = held_check_.over(dt).courant;
+    return found;
 }
 
 /// Solves for the p that makes S.u + k e solenoidal, and begins to read u and p.
@@ -131,11 +149,7 @@ void PressureProjection::correct_layer(int j, double dt, const VelocityPointers&
     const int nx = layers_.nx, nz = layers_.nz;
     correct_across(j, dt);
     // Before correct_within, which overwrites the fluxes of layer j - 1 along x and z.
-    if (j >= 1) {
-        check_.add_layer(j - 1, flux_x_.data(), flux_below_.data(), flux_above_.data(),
-                         layers_.in_space() ? flux_z_.data() : nullptr);
-        if (held_.extrapolated) held_.show_layer(layers_, j - 1, held_check_);
-    }
+    if (j >= 1) check(j - 1);
     if (j >= 0 && j < layers_.ny) {
         for (int axis = 0; axis < u.size(); axis += 2) correct_within(axis, j, dt);
         for (int k = 0; k < nz; ++k) {

@@ -31,6 +31,9 @@ class PressureProjection {
     void correct_layer(int j, double dt, const VelocityPointers& u);
     void correct_across(int j, double dt);
     void correct_within(int axis, int j, double dt);
+    void hold(int axis, int j, double dt, Values& faces);
+    void check(int j);
+    FluxReport report(double dt) const;
 
     const BoxLayers& layers_;
     std::vector<RowReader>& u_;

@@ -47,6 +47,9 @@ class CoupledStep {
     /// Before transport over dt [s], which is to add what it returns.
     ImpulsesOfWindow& begin(double dt) { return viscosity_.begin(dt_ = dt, step_.viscosity()); }
 
+    /// ImpulsesOfWindow::sum_u
+    double sum_of_transported() const { return viscosity_.sum_of_transported(); }
+
     /// After transport: keeps it, if asked to.
     void keep_transported();
 

@@ -43,10 +43,9 @@ void RigidPressure::find_enclosed(const Constraint& constraint,
     constraint.mark_driven(marks.data());
     enclosed_ = step_.operators().enclosed(marks.data());
     // A film passes into a cell and out of it.
-    std::set<int> filmed;
-    for (const CellSide& side : films) filmed.insert(side.cell);
-    const auto passes = [&](int cell) { return filmed.count(cell) != 0; };
-    enclosed_.erase(std::remove_if(enclosed_.begin(), enclosed_.end(), passes), enclosed_.end());
+    std::set<int> shut(enclosed_.begin(), enclosed_.end());
+    for (const CellSide& side : films) shut.erase(side.cell);
+    enclosed_.assign(shut.begin(), shut.end());
 }
 
 IterationResult RigidPressure::correct(BoxOperators& box, RigidGrains& grains,
@@ -95,23 +94,31 @@ void RigidPressure::leave_out_enclosed(BoxOperators& box, const RigidGrains& gra
     grains.sum_over_ranks(&square.sum, 1);
 }
 
-/// z = -(1/dt) laplacian^-1 r, left in the solver; returns r.z.
-double RigidPressure::precondition(const RigidGrains& grains) {
+/// z = -(1/dt) laplacian^-1 r, left in the solver; `take(j)` has layer j of it in cache.
+void RigidPressure::precondition(const SeparableSolve::LayerWork& take) {
     double* z = step_.pressure_solve().values();
     const BoxLayers& layers = step_.layers();
     const std::vector<double>& r = residual();
-    double product = 0.0;
     step_.pressure_solve().solve(
         [&](int j) {
             // The solver inverts -laplacian, so z of r/dt is -(1/dt) laplacian^-1 r.
             for (std::size_t c = layers.row(j, 0); c < layers.row(j + 1, 0); ++c) z[c] = r[c] / dt_;
         },
-        [&](int j) {
-            for (int k = 0; k < layers.nz; ++k)
-                // Weighted by volumes, as all products (box_operators.hpp)
-                product += layers.heights.relative(j) *
-                           dot_row(layers.nx, r.data() + layers.row(j, k), z + layers.row(j, k));
-        });
+        take);
+}
+
+/// The same, and r.z.
+double RigidPressure::precondition_with_product(const RigidGrains& grains) {
+    const double* z = step_.pressure_solve().values();
+    const BoxLayers& layers = step_.layers();
+    const std::vector<double>& r = residual();
+    double product = 0.0;
+    precondition([&](int j) {
+        for (int k = 0; k < layers.nz; ++k)
+            // Weighted by volumes, as all products (box_operators.hpp)
+            product += layers.heights.relative(j) *
+                       dot_row(layers.nx, r.data() + layers.row(j, k), z + layers.row(j, k));
+    });
     grains.sum_over_ranks(&product, 1);
     return product;
 }
@@ -122,8 +129,10 @@ void RigidPressure::choose_direction(BoxOperators& box, RigidGrains& grains, boo
     // Viscosity may have left another array in its place.
     rigid().u.resize(step_.layers().components(), step_.cells());
     const double last = rz;
-    // beta = r.z/(r.z of the last iteration)
-    rz = precondition(grains);
+    if (first)  // r.z comes with the image (ImageProducts::step)
+        precondition([](int) {});
+    else  // beta = r.z/(r.z of the last iteration)
+        rz = precondition_with_product(grains);
     const double* z = step_.pressure_solve().values();
     if (limit.most > 1) {
         later().resize(step_.cells());

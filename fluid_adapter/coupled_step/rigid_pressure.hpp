@@ -41,7 +41,8 @@ class RigidPressure {
     void find_enclosed(const Constraint& constraint, const std::vector<CellSide>& films);
     void leave_out_enclosed(BoxOperators& box, const RigidGrains& grains, ResidualSquare& square);
     ResidualSquare find_residual(BoxOperators& box, RigidGrains& grains);
-    double precondition(const RigidGrains& grains);
+    void precondition(const SeparableSolve::LayerWork& take);
+    double precondition_with_product(const RigidGrains& grains);
     void choose_direction(BoxOperators& box, RigidGrains& grains, bool first, double& rz,
                           const IterationLimit& limit);
     ImageProducts apply(BoxOperators& box, const RigidGrains& grains, bool keep);

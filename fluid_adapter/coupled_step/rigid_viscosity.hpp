@@ -24,6 +24,8 @@ class RigidViscosity {
     /// the caller: that of the velocity it begins with.
     ImpulsesOfWindow& begin(double dt, double nu);
 
+    double sum_of_transported() const { return window_.sum_u; }
+
     /// Corrects the window's velocity and f until the rms of r/dt is below the tolerance [m/s2].
     /// The last change of the velocity may be left pending.
     IterationResult correct(BoxOperators& box, RigidGrains& grains, const IterationLimit& limit);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fluid_adapter/domain/side_motion.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -23,6 +25,11 @@ double integrated_parabola(double s) {
 }
 
 }  // namespace
+
+void MovedSides::add(std::size_t side, const Vec3& v) {
+    any = true;
+    through = std::max(through, std::abs(v[side / 2]));  // left, right: x, ...
+}
 
 Vec3 SideMotion::velocity(double time, double step) const {
     return motion ? motion->rate(time, step).velocity : Vec3{};

@@ -31,6 +31,16 @@ struct SideMotion {
     double share(double from, double to) const;
 };
 
+/// What sides with a motion do in a window.
+struct MovedSides {
+    bool any = false;  ///< there are such sides
+    double through =
+        0.0;  ///< largest speed of fluid through one [m/s]; walls slide along themselves
+
+    /// v: of a side in the order of box_sides.
+    void add(std::size_t side, const Vec3& v);
+};
+
 /// Of every side of the box. Throws std::invalid_argument for motions of another format, and for
 /// an unknown profile of an inflow.
 std::array<SideMotion, box_sides.size()> side_motions(const Settings& settings);

@@ -79,9 +79,8 @@ FluxReport BoxFluidStep::solenoidal() {
     if (in_second_order_ && !coupled_) return step_.project_and_hold_middle(dt_, begins);
     if (!coupled_) return step_.project(dt_);
     // Transport gets a flux without divergence; u^n, nearly solenoidal already, and e stay.
-    FluxReport report = step_.hold_solenoidal_flux(dt_);
-    if (in_second_order_) report.carried_courant = step_.hold_middle_flux(dt_, begins);
-    return report;
+    return in_second_order_ ? step_.hold_solenoidal_middle(dt_, begins)
+                            : step_.hold_solenoidal_flux(dt_);
 }
 
 /// What only transport needs is lent to pressure and viscosity until the next projection.
@@ -182,11 +181,11 @@ SideForce BoxFluidStep::diffuse_implicitly(double dt) {
 }
 
 /// A direct solve spreads one bad value over all rows of all ranks; with rigid grains there is
-/// none, and all cells count. Nor is there one where transport has done viscosity: a bad value
-/// beyond the first cells is then found by the ledger, after step 5.
+/// none, and all cells count, as transport has summed them. Nor is there one where transport has
+/// done viscosity: a bad value beyond the first cells is then found by the ledger, after step 5.
 bool BoxFluidStep::finite() {
-    double sum = 0.0;
-    const std::size_t some = coupled_ ? step_.cells() : std::min<std::size_t>(step_.cells(), 100);
+    double sum = coupled_ ? coupled_->sum_of_transported() : 0.0;
+    const std::size_t some = std::min<std::size_t>(step_.cells(), 100);
     for (const double* u : components())
         for (std::size_t c = 0; c < some; ++c) sum += std::abs(u[c]);
     return ranks_.all(std::isfinite(sum));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "coupler/protocol/records.hpp"
+#include "fluid_adapter/domain/side_motion.hpp"
 #include "fluid_adapter/fluid_window/fluid_step.hpp"
 #include "fluid_adapter/multiplier/constraint.hpp"
 #include "fluid_adapter/multiplier/fluid_field.hpp"
@@ -64,8 +65,8 @@ class FluidStore {
     /// Up to which rows of cells have the case's resolution [m]; infinite where all have it.
     virtual double equal_height() const = 0;
 
-    /// Begins a window: its time, and the velocities of the box's sides. Returns whether any moves.
-    virtual bool begin(const Window& window) = 0;
+    /// Begins a window: its time, and the velocities of the box's sides.
+    virtual MovedSides begin(const Window& window) = 0;
 
     /// Whether the present window is the last of the run.
     virtual bool finished() const = 0;

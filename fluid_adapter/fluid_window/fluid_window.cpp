@@ -121,8 +121,9 @@ void FluidWindow::begin(const Window& window) {
     // An array per component, only for windows whose lambda somebody sees.
     if (CoupledStep* coupled = step_.coupled()) coupled->keep_unconstrained(lambda_is_seen());
     // Before step 1, which sees what sides hold in this window.
-    so_far_.sides_move = store_.begin(window);
-    if (so_far_.sides_move) step_.sides_changed();
+    const MovedSides sides = store_.begin(window);
+    if (sides.any) step_.sides_changed();
+    so_far_.flows_in = sides.through > 1e-9 * run_.velocity;
     step_.begin(window.step);
     fields_follow_ = false;
 }
@@ -177,17 +178,18 @@ void FluidWindow::answer(const char* name, Take take) {
     so_far_.grains_taken = true;
 }
 
-/// The window in which bodies or sides set a fluid at rest in motion. The fluid around them takes
-/// its share through the pressure (added mass).
+/// The window in which bodies or an inflow set a fluid at rest in motion. The fluid around bodies
+/// takes its share through the pressure (added mass).
 void FluidWindow::begin_in_motion() {
     double moving[] = {multipliers_.begins_in_motion() ? 1.0 : 0.0,
                        multipliers_.is_driven() ? 1.0 : 0.0};
     store_.ranks().max(moving, 2);
     const bool bodies_move = moving[0] + moving[1] > 0.0;
     if (moving[0] > 0.0) carry_along();
-    // The jump is no rate of change that the next window should go on with.
-    if (bodies_move) step_.forget_rates();
-    so_far_.jumped = bodies_move || so_far_.sides_move;
+    // The jump is no rate of change that the next window should go on with. Where step 1 projects
+    // the velocity, an inflow has made it before transport.
+    if (bodies_move || (so_far_.flows_in && step_.coupled())) step_.forget_rates();
+    so_far_.jumped = bodies_move || so_far_.flows_in;
 }
 
 /// Grains that begin with a velocity begin with it in the cells that they cover too; otherwise the

@@ -59,8 +59,8 @@ class FluidWindow {
     /// Of the present window.
     struct SoFar {
         bool grains_taken = false;
-        bool sides_move = false;  ///< an inflow, too
-        bool jumped = false;      ///< bodies or sides have set a fluid at rest in motion
+        bool flows_in = false;  ///< through a side of the box
+        bool jumped = false;    ///< bodies or an inflow have set a fluid at rest in motion
     };
 
     void begin(const Window& window);

@@ -27,7 +27,7 @@ double FoamStore::equal_height() const {
     return stretched(domain_) ? domain_.equal_height : std::numeric_limits<double>::infinity();
 }
 
-bool FoamStore::begin(const Window& window) {
+MovedSides FoamStore::begin(const Window& window) {
     windows_ = window.index + 1;
     fields_.time.readModifiedObjects();
     // `false`: the step as given, not adjusted to times of output

@@ -28,7 +28,7 @@ class FoamStore final : public FluidStore {
     const RankGroup& ranks() const override { return fields_.ranks; }
     double density() const override { return fields_.rho; }
     double equal_height() const override;
-    bool begin(const Window& window) override;
+    MovedSides begin(const Window& window) override;
     bool finished() const override { return fields_.finished(); }
     bool observed() const override { return functions_.any(); }
     void show(const std::vector<ImmersedGrain>& grains) override;

@@ -8,13 +8,17 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <system_error>
 
 namespace turbidite::lammps {
 namespace {
 
-/// Empty if it cannot be made.
+/// Empty if it cannot be made. Throws nothing: the other ranks wait for the name.
 std::string new_file() {
-    std::string name = (std::filesystem::temp_directory_path() / "turbidite-XXXXXX").string();
+    std::error_code missing;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(missing);
+    if (missing) return "";
+    std::string name = (folder / "turbidite-XXXXXX").string();
     const int file = mkstemp(name.data());
     if (file < 0) return "";
     close(file);
@@ -33,9 +37,9 @@ StateFile::StateFile(MPI_Comm communicator) {
     name_.resize(std::size_t(length));
     MPI_Bcast(name_.data(), length, MPI_CHAR, 0, communicator);
     if (name_.empty())
-        throw std::runtime_error("no temporary file can be made in " +
-                                 std::filesystem::temp_directory_path().string() +
-                                 ", which LAMMPS needs for its state");
+        throw std::runtime_error(
+            "no temporary file can be made, which LAMMPS needs for its state: the folder for them "
+            "(TMPDIR, or /tmp) is missing, full, or may not be written to");
 }
 
 StateFile::~StateFile() {

@@ -39,8 +39,8 @@ int resume(const ResumeOptions& options) {
         const ExitCode code = play(resumed->run, site.programs).code;
         if (take_back_overrides(*resumed, code))
             tell_on_stderr(
-                fmt::format("No window was played with {}: the folder has the values "
-                            "again that it had before.\n",
+                fmt::format("No window is left that was played with {}: the folder has "
+                            "the values again that it had before.\n",
                             fmt::join(options.overrides, ", ")));
         return static_cast<int>(code);
     }

@@ -125,7 +125,8 @@ class WithoutReport {
 
 [[noreturn]] void end_early(const RunFolder& folder, ExitCode code, const std::string& why) {
     throw Failure(code, fmt::format("the grains are not poured: {}\n  The pouring is in {}; the "
-                                    "same command goes on with it. The run itself was not started.",
+                                    "same command goes on with it, with other limits.* if they are "
+                                    "given. The run itself was not started.",
                                     why, folder.root.string()));
 }
 
@@ -142,13 +143,21 @@ ResolvedCase load_pouring(const ResolvedCase& resolved, std::int64_t ranks) {
     }
 }
 
+/// What a piece may change. Limits are those of now, not of the case that began to pour: where one
+/// of them has ended it, another goes on.
+std::vector<std::string> piece_changes(const ResolvedCase& pouring, const RunFolder& folder) {
+    std::vector<std::string> changes{fmt::format("time.end={:g}", next_end(folder.history()))};
+    for (const auto& [key, value] : pouring.settings.entries())
+        if (key.rfind("limits.", 0) == 0) changes.push_back(key + "=" + value);
+    return changes;
+}
+
 JobOutcome play_piece(const ResolvedCase& pouring, const RunFolder& folder,
                       const LaunchSite& site) {
     if (!fs::exists(folder.history()))
         return play(prepare(pouring, {folder.root, true}, site), site.programs);
     const auto resumed =
-        prepare_resumption(folder.root, {fmt::format("time.end={:g}", next_end(folder.history()))},
-                           site, tell_on_stderr);
+        prepare_resumption(folder.root, piece_changes(pouring, folder), site, tell_on_stderr);
     // It would be asked for ever to go on to an end that it has reached.
     if (!resumed) end_early(folder, ExitCode::participant_failed, "it does not go on");
     return play(resumed->run, site.programs);

@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "coupler/checkpoint/checkpoint_sets.hpp"
+#include "coupler/protocol/case_hash.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "coupler/protocol/files/whole_file.hpp"
 #include "coupler/protocol/hello.hpp"
@@ -119,6 +120,14 @@ nlohmann::ordered_json fluid_program_of(const Settings& settings) {
     return program_name(fluid_program(settings));
 }
 
+/// Of grains.extra_file, whose grains initial.csv has among all others; empty without.
+std::string extra_fingerprint(const ResolvedCase& resolved) {
+    if (!resolved.settings.has("grains.extra_file")) return "";
+    const fs::path file = resolved.file.parent_path() / resolved.settings.text("grains.extra_file");
+    // A run folder has no copy of it.
+    return fs::exists(file) ? case_hash(read_whole(file)) : "";
+}
+
 /// `turbidite resume` adds others.
 nlohmann::ordered_json first_part() {
     return {{"started", local_time("%Y-%m-%dT%H:%M:%S%z")},
@@ -141,6 +150,7 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved, const RunFolde
             {"out", folder.root.string()},
             {"case_hash", resolved.settings.text("run.hash")},
             {"hash_before_pouring", resolved.hash_before_pouring},
+            {"extra_grains", extra_fingerprint(resolved)},
             {"versions", {{"turbidite", version()}, {"commit", commit()}}},
             {"prepared", local_time("%Y-%m-%dT%H:%M:%S%z")},
             {"scales", scales.kind},

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "coupler/checkpoint/checkpoint_sets.hpp"
 #include "coupler/protocol/failure.hpp"
@@ -324,7 +325,7 @@ PreparedRun from_the_beginning(const ResolvedCase& resolved, const RunFolder& fo
     // The folder's own case does not know where it has come from.
     auto record = read_run_json(folder.record());
     for (const char* of :
-         {"case", "case_file", "overrides", "given", "from", "hash_before_pouring"})
+         {"case", "case_file", "overrides", "given", "from", "hash_before_pouring", "extra_grains"})
         if (before.contains(of)) record[of] = before[of];
     note_overrides(record, overrides);
     if (!overrides.empty()) record["parts"].back()["overrides"] = overrides;
@@ -370,6 +371,25 @@ void require_no_windows(const RunFolder& folder) {
         throw refused(folder.root, "has windows that are done, but no checkpoint to go on from",
                       "Start it afresh in another folder, with turbidite run CASE, or add --from "
                       "DIR for its grains.");
+}
+
+fs::file_time_type written_at(const fs::path& file) {
+    std::error_code gone;
+    return fs::last_write_time(file, gone);
+}
+
+/// Something is left of a window of this part. Where nothing was written since it began, later rows
+/// of the history are those of the part before.
+bool has_new_windows(const Resumed& resumed) {
+    const RunFolder& folder = resumed.run.folder;
+    // A coupler that was ended with the others has not said how many windows were done.
+    const auto record = read_run_json(folder.record());
+    const nlohmann::ordered_json& part = record["parts"].back();
+    if (const auto done = part.find("windows_done"); done != part.end())
+        return *done > resumed.windows;
+    return CheckpointSets(folder.root).newest_windows() > resumed.windows ||
+           (written_at(folder.history()) != resumed.history_written &&
+            windows_kept(folder.root) > resumed.windows);
 }
 
 }  // namespace
@@ -423,7 +443,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
         say("there is no checkpoint yet; the run starts from the beginning");
         return Resumed{from_the_beginning(resolved, folder, lock, site, overrides), 0, 0.0, "", ""};
     }
-    const std::string hash_before = read_run_json(folder.record()).value("case_hash", "");
+    const auto record_before = read_run_json(folder.record());
     prepare_fluid(resolved, folder, *chosen);
     keep_for_recording(resolved, folder, *chosen);
     const auto line = launch_arguments(resolved.settings, folder, site, chosen->name);
@@ -435,19 +455,22 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
                    chosen->manifest.windows,
                    chosen->manifest.time,
                    case_before,
-                   hash_before};
+                   record_before,
+                   written_at(folder.history())};
 }
 
 bool take_back_overrides(const Resumed& resumed, ExitCode code) {
     const bool refused =
         code == ExitCode::participant_failed || code == ExitCode::handshake_refused;
-    if (!refused || resumed.case_before.empty()) return false;
+    if (!refused || resumed.case_before.empty() || has_new_windows(resumed)) return false;
     const RunFolder& folder = resumed.run.folder;
     auto record = read_run_json(folder.record());
-    if (record["parts"].back().value("windows_done", resumed.windows) > resumed.windows)
-        return false;
     write_whole(folder.resolved_case(), [&](std::ostream& out) { out << resumed.case_before; });
-    record["case_hash"] = resumed.hash_before;
+    for (const char* changed : {"case_hash", "windows", "given", "hash_before_pouring"})
+        if (resumed.record_before.contains(changed))
+            record[changed] = resumed.record_before[changed];
+    auto& part = record["parts"].back();
+    part["refused_overrides"] = std::exchange(part["overrides"], nlohmann::ordered_json::array());
     write_run_json(folder.record(), record);
     return true;
 }

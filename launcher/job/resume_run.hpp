@@ -5,6 +5,8 @@
 // fluid here. Logs of earlier parts are kept in logs/part-1, logs/part-2, …
 #pragma once
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "launcher/job/play_run.hpp"
@@ -13,10 +15,11 @@ namespace turbidite {
 
 struct Resumed {
     PreparedRun run;
-    std::int64_t windows = 0;  ///< done before
-    double time = 0.0;         ///< [t_c]
-    std::string case_before;   ///< text of case.yaml before overrides; empty without
-    std::string hash_before;   ///< of the resolved case
+    std::int64_t windows = 0;              ///< done before
+    double time = 0.0;                     ///< [t_c]
+    std::string case_before;               ///< text of case.yaml before overrides; empty without
+    nlohmann::ordered_json record_before;  ///< run.json
+    std::filesystem::file_time_type history_written;  ///< when, by the part before
 };
 
 /// Makes the folder ready; empty if its run is complete. `say` gets a line for a damaged checkpoint
@@ -31,9 +34,9 @@ std::optional<Resumed> prepare_resumption(const std::filesystem::path& folder,
                                           const LaunchSite& site,
                                           const std::function<void(const std::string&)>& say);
 
-/// After a job that failed before its first window: the folder has the values again that it had
-/// before the overrides, which what has refused them would refuse each time. False if it keeps
-/// them.
+/// After a job that failed before its first window, or of whose windows nothing is left: the folder
+/// has the values again that it had before the overrides, which what has refused them would refuse
+/// each time. False if it keeps them.
 bool take_back_overrides(const Resumed& resumed, ExitCode code);
 
 /// Keys that may differ from those of the checkpoint; a trailing dot stands for a group.

@@ -95,11 +95,12 @@ OwnCase write_own_case(const fs::path& shipped, const fs::path& file) {
     const std::string head = fmt::format(
         "# Begun as a copy of {}. Every key, with unit, default and range: `turbidite keys`.\n#\n",
         shipped.stem().string());
-    write(file, head + read_whole(shipped));
+    // The case last: with a full disk there is none, and the same command works later.
     for (const fs::path& name : names) {
         own.beside.push_back(file.parent_path() / name);
         write(own.beside.back(), read_whole(shipped.parent_path() / name));
     }
+    write(file, head + read_whole(shipped));
     return own;
 }
 

@@ -16,7 +16,7 @@ struct OwnCase {
 
 /// Copies a case with its comments to `file`, and the files that it names to the same places beside
 /// it, but for equal ones that are there. Throws Failure (bad input) if one of them exists already
-/// or cannot be written; then nothing is written.
+/// or cannot be written; then there is no case.
 OwnCase write_own_case(const std::filesystem::path& shipped, const std::filesystem::path& file);
 
 }  // namespace turbidite

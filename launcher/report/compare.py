@@ -152,8 +152,9 @@ def parameters(members):
     """(key, one value per member) of the keys in which the cases differ, and of their files. With equal seeds generated
     grains are equal, too, unless grains.extra_file has others."""
     one_seed = len({member.data.case.get(seeds.SEED) for member in members}) == 1
-    files = [member.data.fingerprints if one_seed else member.data.files() for member in members]
+    files = [{**(member.data.fingerprints if one_seed else {}), **member.data.files()} for member in members]
     cases = [{**member.data.case, **{f'{what}, fingerprint': text for what, text in of_member.items()},
+              **({'--from': member.data.began_from()} if member.data.began_from() else {}),
               **({'resumed': '; '.join(member.data.changes())} if member.data.changes() else {})}
              for member, of_member in zip(members, files)]
     keys = dict.fromkeys(key for case in cases for key in case)

@@ -18,6 +18,7 @@ import numpy as np
 import grain_files
 
 GRAINS = 'grains'  # in RunData.fingerprints
+EXTRA = 'grains.extra_file'
 BARE_FROM = 0.9  # of the width: grains that reach so far at first fill the box
 SAME_FRONT = 0.01  # D
 FEWEST_IN_COLUMN = 2  # free grains: one that falls by itself is none
@@ -44,10 +45,16 @@ class RunData:
         return None if value in ('~', '') else value
 
     def files(self):
-        """The fingerprints of the files that the case names: walls, script, function objects, and grains unless they were
-        generated or poured, which is for the seed to say. The case has the names of copies, which are the same for all."""
+        """The fingerprints of the files that the case names: walls, script, function objects, extra grains, and grains
+        unless they were generated or poured, which is for the seed to say. The case has the names of copies, which are the
+        same for all."""
         named = self.given('grains.file') and self.case.get('grains.generator') != 'poured'
-        return {what: fingerprint for what, fingerprint in self.fingerprints.items() if named or what != GRAINS}
+        found = {what: fingerprint for what, fingerprint in self.fingerprints.items() if named or what != GRAINS}
+        return {**found, **({EXTRA: self.record['extra_grains']} if self.record.get('extra_grains') else {})}
+
+    def began_from(self):
+        """The run whose grains it began with (--from); empty for grains poured for it."""
+        return '' if self.record.get('hash_before_pouring') else self.record.get('from', '')
 
     def in_space(self):
         return self.case.get('dimension') == '3'

@@ -67,7 +67,7 @@ def case_without_seed(run):
     """A run without a readable case, or that is not done, belongs to no group."""
     if not run.case or run.record.get('status') != 'done' or run.is_cut_off():
         return id(run)
-    return without_seed(run.case), without_seed(run.files()), tuple(run.changes())
+    return without_seed(run.case), without_seed(run.files()), bool(run.began_from()), tuple(run.changes())
 
 
 def without_seed(values):

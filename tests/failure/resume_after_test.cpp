@@ -118,6 +118,25 @@ TEST_F(ResumeAfter, AProgramIsKilled) {
     }
 }
 
+// What windows were played with stays, also if the coupler is ended before it can count them.
+TEST_F(ResumeAfter, WindowsThatWerePlayedKeepTheirValues) {
+    ASSERT_EQ(shell(run_line("--set time.end=1")).code, 0);
+    const pid_t on =
+        begin(TURBIDITE_PROGRAM " resume run --set time.end=12 --set contact.tolerance=1e-5");
+    const fs::path later = run_folder() / "checkpoints/w00000080";
+    for (int i = 0; i < 3000 && !fs::exists(later); ++i)
+        std::this_thread::sleep_for(Milliseconds(10));
+    for (const char* program : {"turbidite-coupler", "turbidite-fluid"})
+        for (const pid_t process : processes(program)) kill(process, SIGKILL);
+    const Answer answer = end_of(on);
+    EXPECT_EQ(answer.code, 4) << answer.err;
+    EXPECT_FALSE(record()["parts"].back().contains("windows_done"));
+    EXPECT_EQ(answer.err.find("No window is left"), std::string::npos) << answer.err;
+    EXPECT_SAYS(text(run_folder() / "case.yaml"), "tolerance: 1e-05");
+    EXPECT_EQ(resume().code, 0);
+    EXPECT_EQ(lines_of_history("run").size(), whole_.size());
+}
+
 // The disk becomes full, is made larger, and the run goes on from the last whole set.
 TEST_F(ResumeAfter, AFullDisk) {
     if (shell(on_small_disk("true")).code != 0) GTEST_SKIP() << no_small_disk;

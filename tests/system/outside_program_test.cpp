@@ -198,8 +198,12 @@ TEST_F(OutsideProgram, ValuesThatItCannotGoOnWithAreTakenBack) {
     const std::string before = text(run_folder() / "case.yaml");
     const Answer refused = resume("--set time.end=0.6 --set grains.ranks=2");
     EXPECT_EQ(refused.code, 4) << refused.out << refused.err;
-    EXPECT_SAYS(refused.err, "No window was played with time.end=0.6, grains.ranks=2");
+    EXPECT_SAYS(refused.err, "No window is left that was played with time.end=0.6, grains.ranks=2");
     EXPECT_EQ(text(run_folder() / "case.yaml"), before);
+    // Nor does the record say that there were windows with them.
+    EXPECT_EQ(record()["parts"].back()["overrides"].size(), 0u);
+    EXPECT_EQ(record()["parts"].back()["refused_overrides"].size(), 2u);
+    EXPECT_EQ(record()["windows"], 50);
     const Answer on = resume("--set time.end=0.6");
     EXPECT_EQ(on.code, 0) << on.out << on.err;
     EXPECT_SAYS(on.out, "goes on after window 50");

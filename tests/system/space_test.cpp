@@ -159,6 +159,21 @@ TEST_F(Space, PouredGrainsAreAtRestWhenTheRunBegins) {
               lines_without_wall_times(text(scratch.path() / "first/history.csv")));
 }
 
+// A limit that has ended the pouring is not the packing's: with another one it goes on.
+TEST_F(Space, APouringThatEndedOnALimitGoesOnWithAnother) {
+    ::setenv("XDG_CACHE_HOME", scratch.path().c_str(), 1);
+    const std::string poured =
+        "run case.yaml --set grains.generator=poured --set grains.count=150 "
+        "--set grains.jitter=0 --set time.end=0.1";
+    const Answer ended = turbidite(poured + " --set limits.penetration=1e-9 --out ended");
+    EXPECT_EQ(ended.code, 6) << ended.err;
+    EXPECT_SAYS(ended.err, "the same command goes on with it, with other limits.*");
+    const Answer on = turbidite(poured + " --out on");
+    ::unsetenv("XDG_CACHE_HOME");
+    EXPECT_EQ(on.code, 0) << on.out << on.err;
+    EXPECT_EQ(history("on").at("grains").front(), 150.0);
+}
+
 // A study pours them too, and knows the run again by its plan.
 TEST_F(Space, PouredGrainsOfAStudyAreAtRestWhenItsRunsBegin) {
     ::setenv("XDG_CACHE_HOME", scratch.path().c_str(), 1);

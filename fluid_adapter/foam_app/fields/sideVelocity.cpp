@@ -51,21 +51,23 @@ SideVelocity::SideVelocity(const std::array<SideMotion, box_sides.size()>& motio
                               "_motion prescribes a velocity, but 0/U of the fluid case holds no "
                               "value on patch " +
                               at.name + "; use type fixedValue there");
-        patches_.push_back({patch, &motions_[side],
+        patches_.push_back({patch, side, &motions_[side],
                             shares_of(fields.mesh.boundary()[patch], at, motions_[side], fields)});
     }
 }
 
-bool SideVelocity::set(double time, double step) {
+MovedSides SideVelocity::set(double time, double step) {
+    MovedSides sides;
     for (const MovedPatch& moved : patches_) {
-        const auto [x, y, z] = moved.motion->velocity(time, step);
-        const Foam::vector v(x, y, z);
+        const Vec3 velocity = moved.motion->velocity(time, step);
+        sides.add(moved.side, velocity);
+        const Foam::vector v(velocity[0], velocity[1], velocity[2]);
         Foam::fvPatchVectorField& side = fields_.U.boundaryFieldRef()[moved.patch];
         Foam::vectorField values(side.size());
         forAll(values, face) values[face] = moved.shares[face] * v;
         side == values;  // sets the value itself
     }
-    return !patches_.empty();
+    return sides;
 }
 
 VelocityOnSides held_on_sides(const FluidFields& fields, const BoxCells& box) {

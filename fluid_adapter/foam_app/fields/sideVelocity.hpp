@@ -21,12 +21,13 @@ class SideVelocity {
     /// moves.
     SideVelocity(const std::array<SideMotion, box_sides.size()>& motions, FluidFields& fields);
 
-    /// Sets U on the sides for the window [time, time + step]. Returns whether any side moves.
-    bool set(double time, double step);
+    /// Sets U on the sides for the window [time, time + step].
+    MovedSides set(double time, double step);
 
  private:
     struct MovedPatch {
         Foam::label patch;
+        std::size_t side;
         const SideMotion* motion;
         std::vector<double> shares;  ///< of the profile, by face
     };

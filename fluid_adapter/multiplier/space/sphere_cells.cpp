@@ -155,6 +155,7 @@ void SphereCells::add_run(const Row& row, int low, int high) {
 void SphereCells::add_cells(int body, int owner, const CellPlace& first, int count,
                             const Eigen::Vector3d& arm) {
     const int* owners = owners_.row(first.j, first.k) + first.i;
+    const Eigen::Vector3d step = grid().spacing[x] * Eigen::Vector3d::UnitX();
     for (int from = 0, to = 0; from < count; from = to) {
         const bool free = owners[from] == CellOwners::none;
         while (to < count && (owners[to] == CellOwners::none) == free) ++to;
@@ -162,11 +163,11 @@ void SphereCells::add_cells(int body, int owner, const CellPlace& first, int cou
         const CellPlace at{first.i + from, first.j, first.k};
         owners_.set(at, to - from, owner);
         if (const int after = grid().wrapped(x, first.i + to); after >= 0)
-            beside_runs_.push_back({body, {after, at.j, at.k}});
-        if (at.i == 1 && !grid().cyclic(x)) beside_runs_.push_back({body, {0, at.j, at.k}});
+            beside_runs_.push_back({body, {after, at.j, at.k}, arm + to * step});
+        if (at.i == 1 && !grid().cyclic(x))
+            beside_runs_.push_back({body, {0, at.j, at.k}, arm + (from - 1) * step});
         if (cells_.owns(at.j))
-            runs_[body].push_back({cells_.cell(at.i, at.j, at.k), to - from,
-                                   arm + from * grid().spacing[x] * Eigen::Vector3d::UnitX(),
+            runs_[body].push_back({cells_.cell(at.i, at.j, at.k), to - from, arm + from * step,
                                    grid().relative_volume(at.i, at.j)});
     }
 }
@@ -176,16 +177,17 @@ void SphereCells::join_shut_in() {
     std::vector<CellOfGrain> joined;
     // Found once, by the covered neighbour at -x: no two runs end at the same cell.
     for (const CellOfGrain& of : beside_runs_)
-        if (is_shut_in(of.at)) joined.push_back({nearest(of.grain, of.at), of.at});
+        if (is_shut_in(of.at)) joined.push_back({nearest(of.grain, of.at), of.at, of.arm});
     // Only now: whether a cell is shut in does not depend on the order of the grains.
     for (const CellOfGrain& of : joined) {
         const auto [i, j, k] = of.at;
         owners_.set(of.at, 1, CellOwners::shut_in);
         if (!cells_.owns(j)) continue;
         ++shut_in_;
-        runs_[of.grain].push_back({cells_.cell(i, j, k),
-                                   1,
-                                   {arm(of.grain, x, i), arm(of.grain, y, j), arm(of.grain, z, k)},
+        const Eigen::Vector3d nearest(arm(of.grain, x, i), arm(of.grain, y, j),
+                                      arm(of.grain, z, k));
+        runs_[of.grain].push_back({cells_.cell(i, j, k), 1,
+                                   (*grains_)[of.grain].wall ? of.arm : nearest,
                                    grid().relative_volume(i, j)});
     }
 }

@@ -55,6 +55,7 @@ class SphereCells {
     struct CellOfGrain {
         int grain;
         CellPlace at;
+        Eigen::Vector3d arm;  // along the run, which of a wall may be longer than half a period
     };
 
     void find_neighbours(const std::vector<ImmersedGrain>& grains);

@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
-#include <iterator>
+#include <string>
 
 #include "coupler/checkpoint/checkpoint_sets.hpp"
 #include "coupler/protocol/failure.hpp"
@@ -17,7 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int lines_at_the_start = 2;  // names of the columns, t = 0
+/// That of the last row of a history, in its first column; 0 without rows. Rows are whole lines:
+/// one that was cut off does not count.
+std::int64_t last_step(const fs::path& file) {
+    std::ifstream history(file);
+    std::string row;
+    for (std::string line; std::getline(history, line) && !history.eof();) row = line;
+    return std::strtoll(row.c_str(), nullptr, 10);  // the names of the columns give 0
+}
 
 fs::path first_free(const fs::path& folder) {
     fs::path free = folder;
@@ -28,14 +36,13 @@ fs::path first_free(const fs::path& folder) {
 
 }  // namespace
 
+std::int64_t windows_kept(const fs::path& folder) {
+    return std::max(CheckpointSets(folder).newest_windows(),
+                    last_step(RunFolder{folder}.history()));
+}
+
 bool has_windows(const fs::path& folder) {
-    std::ifstream history(RunFolder{folder}.history());
-    // Rows are whole lines: one that was cut off does not count.
-    const auto lines = std::count(std::istreambuf_iterator<char>(history), {}, '\n');
-    if (lines > lines_at_the_start) return true;
-    const auto sets = CheckpointSets(folder).names();  // "w00000480", newest first
-    // The set of t = 0, w00000000, holds no windows.
-    return !sets.empty() && sets.front().find_first_not_of("w0") != std::string::npos;
+    return windows_kept(folder) > 0;
 }
 
 fs::path set_aside(const fs::path& folder) {

@@ -29,8 +29,8 @@ class SecondOrderTransport final : private SecondOrderHost {
     explicit SecondOrderTransport(Tank& tank) : tank_(tank) {}
 
     void operator()(Tank&, CoupledStep& coupled, double dt) {
-        tank_.step.hold_solenoidal_flux(dt);
-        const double courant = tank_.step.hold_middle_flux(dt, !second_order_.goes_on());
+        const double courant =
+            tank_.step.hold_solenoidal_middle(dt, !second_order_.goes_on()).carried_courant;
         second_order_.transport(*this, dt, SecondOrder::parts(courant, INFINITY));
         tank_.step.add_impulses(second_order_.transported(), coupled.begin(dt));
         tank_.step.release_flux();

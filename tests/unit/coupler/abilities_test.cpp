@@ -90,6 +90,15 @@ TEST(Abilities, WhatGoesBeyondIsRefusedByItsKeyUnlessTheProgramKnowsIt) {
     }
 }
 
+TEST(Abilities, AFilmWithoutALiquidAsksForNothing) {
+    Settings s = plain();
+    s.set("contact.film", std::string("lubrication"));
+    for (const auto& [fluid, told] : {std::pair{"true", "contact.film"}, {"false", ""}}) {
+        s.set("fluid.enabled", std::string(fluid));
+        EXPECT_EQ(beyond({}, s, {}).substr(0, 12), told);
+    }
+}
+
 // A wall inside the box has its constant motion and its friction in its own line.
 TEST(Abilities, WallsInsideMoveAndRubByTheirOwnLine) {
     const auto with = [](const char* dimension, const char* wall, const Abilities& able) {

@@ -36,9 +36,9 @@ class WatchedStore final : public ArrayStore {
     explicit WatchedStore(const ArrayBox& box) : WatchedStore(box, new WatchedRows(box.grid)) {}
 
     double equal_height() const override { return resolved_height; }
-    bool begin(const Window&) override {
+    MovedSides begin(const Window&) override {
         ++windows;
-        return false;
+        return sides;
     }
     bool observed() const override { return looks; }
     void show(const std::vector<ImmersedGrain>&) override {
@@ -54,6 +54,7 @@ class WatchedStore final : public ArrayStore {
     double resolved_height = std::numeric_limits<double>::infinity();
     bool looks = false;
     double shown_x = 0.0;  ///< u_x of the first cell, as those who look saw it
+    MovedSides sides;
     int windows = 0, fluxes = 0, shown = 0;
     std::size_t written = 0;
     mutable std::vector<std::string> lines;

@@ -346,6 +346,25 @@ class Compare(RunFolderTest):
             runs = [run_data.load_run(self.folder / f'run-{seed}') for seed in (1, 2)]
             self.assertEqual(len(seeds.members(runs)), groups, grains)
 
+    def write_from(self, name, seed, **record):
+        self.write_headed(name, seed, '# 3 grains, fingerprint 0000000000000001', '  generator: poured\n')
+        self.write(f'{name}/run.json', json.dumps({'status': 'done', **record}))
+
+    def test_extra_grains_of_other_content_are_another_case(self):
+        for name, seed, extra in (('a-1', 1, '0a'), ('a-2', 2, '0a'), ('b-1', 1, '0b'), ('b-2', 2, '0b')):
+            self.write_from(name, seed, extra_grains=extra)
+        self.assertEqual(self.run_it('a-1', 'a-2', 'b-1', 'b-2')[0], 0)
+        self.assertEqual([run['seeds'] for run in self.result()['runs']], [['1', '2'], ['1', '2']])
+        self.assertEqual(self.result()['parameters'], {'grains.extra_file, fingerprint': ['0a', '0b']})
+
+    def test_grains_of_another_run_are_not_those_poured_for_this_one(self):
+        self.write_from('poured-1', 1, **{'from': 'cache', 'hash_before_pouring': 'c'})
+        self.write_from('poured-2', 2, **{'from': 'cache', 'hash_before_pouring': 'd'})
+        self.write_from('own-3', 3, **{'from': 'bed', 'hash_before_pouring': ''})
+        self.assertEqual(self.run_it('poured-1', 'poured-2', 'own-3')[0], 0)
+        self.assertEqual([run['seeds'] for run in self.result()['runs']], [['1', '2'], ['3']])
+        self.assertEqual(self.result()['parameters']['--from'], ['', 'bed'])
+
     def test_a_group_covers_the_time_of_its_shortest_run(self):
         runs = []
         for seed, times in ((1, range(5)), (2, range(3))):

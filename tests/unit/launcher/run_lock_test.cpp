@@ -73,14 +73,22 @@ TEST(SetAside, KeepsEverythingUnderTheFirstFreeName) {
 
 TEST(SetAside, WindowsAreRowsAfterTheFirstOrLaterCheckpoints) {
     const ScratchFolder scratch;
+    const auto kept = [&](const char* run) { return windows_kept(scratch.path() / run); };
     const auto has = [&](const char* run) { return has_windows(scratch.path() / run); };
+    EXPECT_EQ(kept("nowhere"), 0);
     EXPECT_FALSE(has("nowhere"));
     scratch.write("start/history.csv", "step,time\n0,0\n");
     fs::create_directories(scratch.path() / "start/checkpoints/w00000000");
+    EXPECT_EQ(kept("start"), 0);
     EXPECT_FALSE(has("start"));
-    scratch.write("rows/history.csv", "step,time\n0,0\n10,0.1\n");
+    scratch.write("rows/history.csv", "step,time\n0,0\n10,0.1\n20,0.");
+    EXPECT_EQ(kept("rows"), 10) << "the last row is none";
     EXPECT_TRUE(has("rows"));
+    fs::create_directories(scratch.path() / "rows/checkpoints/w00000005");
+    EXPECT_EQ(kept("rows"), 10);
     fs::create_directories(scratch.path() / "set/checkpoints/w00000010");
+    fs::create_directories(scratch.path() / "set/checkpoints/w100000000");
+    EXPECT_EQ(kept("set"), 100000000);
     EXPECT_TRUE(has("set"));
 }
 

@@ -285,5 +285,29 @@ TEST(WallCells, MoveWithTheWall) {
     EXPECT_LT(norm(constraint.impulse(0).linear - lost), 1e-12);
 }
 
+/// A cell that is shut in by a wall moves as this image of it does, also farther than half a period
+/// from the pivot.
+TEST(WallCells, AShutInCellHasTheArmOfTheWallAroundIt) {
+    const SpaceField field({30, 30, 30}, Side::cyclic);
+    const double far = 2.25, middle = 1.45;  // of 3
+    SpaceWall shell =
+        at_rest(SpaceWallKind::cylinder, {2.45, middle - 0.12, middle}, {0.0, 0.24, 0.0});
+    shell.radius = 0.12;
+    SpaceWall floor = at_rest(SpaceWallKind::ring, shell.place, {0.0, 1.0, 0.0});
+    floor.radius2 = 0.12;
+    SpaceWall lid = floor;
+    lid.place = shell.place + shell.a;
+    std::vector<SpaceWall> can{shell, floor, lid};
+    for (SpaceWall& wall : can) wall.pivot = {2.45 - far, middle, middle};
+    const Walls walls(can);
+    SphereCells cells(field.layers());
+    cells.find(walls.bodies);
+    ASSERT_EQ(cells.shut_in(), 1);
+    const CellRun& joined = cells.runs(0).back();
+    EXPECT_EQ(joined.cell, field.cell(24, 14, 14));
+    EXPECT_NEAR(joined.first.x(), far, 1e-12);
+    EXPECT_NEAR(joined.first.y(), 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace turbidite
