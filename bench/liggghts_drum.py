@@ -23,9 +23,7 @@ import grain_files
 import liggghts_silo as liggghts
 import run_data
 
-# Of M1, M2 and steel with each other (Dosta et al. 2024, as the peclet-examples benchmark page of 2026 gives them).
-RESTITUTION = (0.5, 0.45, 0.4, 0.45, 0.4, 0.4, 0.4, 0.4, 0.6)
-FRICTION = (0.3, 0.2, 0.2, 0.2, 0.4, 0.2, 0.2, 0.2, 0.5)
+MATERIALS = ('default', 'M2', 'steel')  # of M1, M2 and the drum
 FACETS = 128
 SPIN = 2.0      # rad/s, counter-clockwise about z
 SAMPLED = 0.05  # s
@@ -44,9 +42,20 @@ def stl_of_drum(axis, radius, depth):
     return '\n'.join(lines + ['endsolid drum', ''])
 
 
-def input_of(options, axis, gravity):
+def coefficients(case, name):
+    """Of each material with each, row by row: that of the pair, or the smaller one of the two."""
+    own = [float(case.get(f'contact.materials.{material}.{name}', case[f'contact.{name}'])) for material in MATERIALS]
+
+    def of_pair(i, j):
+        given = [case.get(f'contact.pairs.{MATERIALS[a]}-{MATERIALS[b]}.{name}') for a, b in ((i, j), (j, i))]
+        return next((float(value) for value in given if value), min(own[i], own[j]))
+    return tuple(of_pair(i, j) for i in range(len(own)) for j in range(len(own)))
+
+
+def input_of(options, run, axis):
+    restitution, friction = (coefficients(run.case, name) for name in ('restitution', 'friction'))
     moduli = [options.modulus, options.modulus, options.modulus * liggghts.STEEL_OVER_GRAINS]
-    return liggghts.head_of(moduli, RESTITUTION, FRICTION, gravity, options.step, options.skin, options.ranks) + f'''\
+    return liggghts.head_of(moduli, restitution, friction, run.record['g'], options.step, options.skin, options.ranks) + f'''\
 fix drum all mesh/surface file drum.stl type 3
 fix walls all wall/gran model hertz tangential history mesh n_meshes 1 meshes drum
 fix turning all move/mesh mesh drum rotate origin {axis:g} {axis:g} 0.0 axis 0.0 0.0 1.0 period {2.0 * np.pi / SPIN:.9g}
@@ -71,7 +80,7 @@ def main():
     small, axis = dem8.is_m1(state.radii, d), dem8.DRUM_AXIS * d
     (folder / 'state.data').write_text(liggghts.data_file(state, size, np.where(small, 1, 2)))
     (folder / 'drum.stl').write_text(stl_of_drum(axis, dem8.DRUM_RADIUS * d, dem8.DRUM_DEPTH * d))
-    seconds = liggghts.run_liggghts(folder, input_of(options, axis, run.record['g']), options.ranks)
+    seconds = liggghts.run_liggghts(folder, input_of(options, run, axis), options.ranks)
     dumps = [liggghts.read_dump(folder / f'state-{k + 1}.txt') for k in range(len(seconds))]
     dem8.print_quarters([(0.0, state.centres, state.radii)] + [
         ((k + 1) * SAMPLED, liggghts.place(dump), dump['radius']) for k, dump in enumerate(dumps)], d)
