@@ -185,8 +185,9 @@ Ruling repeats_on_one_rank(const Settings& s) {
 constexpr double quiet_polygons = 20.0;
 
 void impact_notes(const Settings& s, std::vector<std::string>& notes) {
-    if (s.text("contact.impact") == "newton" && s.real("contact.restitution") > 0.0 &&
-        s.real("contact.friction") > 0.0)
+    const auto has = [&](const char* name) { return !positive_coefficient(s, name).empty(); };
+    if (s.text("contact.impact") == "newton" && has("friction") &&
+        (has("restitution") || has("restitution_tangential")))
         notes.push_back(
             "contact.impact: newton with friction may create energy where several contacts of a "
             "grain have impacts at once; contact.impact: moreau never does");

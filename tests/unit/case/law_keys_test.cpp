@@ -126,6 +126,10 @@ TEST_F(LawKeys, WhatHasNoEffectIsNoted) {
     EXPECT_SAYS(notes({"contact.static_friction=0.5"}), "without contact.law: static-dynamic");
     EXPECT_EQ(notes({}).find("contact."), std::string::npos);
     EXPECT_SAYS(notes({"contact.restitution=0.5"}), "contact.impact: moreau never does");
+    for (const char* of : {"contact.materials.steel.restitution=0.5",
+                           "contact.pairs.default-steel.restitution_tangential=0.5"})
+        EXPECT_SAYS(notes({"contact.materials.steel.friction=0.3", of}),
+                    "contact.impact: moreau never does");
     EXPECT_EQ(notes({"contact.restitution=0.5", "grains.adapter=yade-md"}).find("moreau"),
               std::string::npos);
     EXPECT_SAYS(notes({"contact.solver=central-path"}),

@@ -257,6 +257,42 @@ TEST(CentralPath, GivesTheSameBitsTwiceAfterALongPath) {
     EXPECT_TRUE(same_bits(a.impulses, b.impulses));
 }
 
+/// Contacts with an impulse, and those of them that slide.
+std::array<std::size_t, 2> loaded_and_sliding(const ContactProblem& problem, const Impulses& r) {
+    std::array<std::size_t, 2> count{};
+    for (std::size_t k = 0; k < r.size(); ++k) {
+        if (r[k].n == 0.0) continue;
+        ++count[0];
+        count[1] += std::abs(r[k].t) >= (1.0 - 1e-9) * problem.contacts[k].friction * r[k].n;
+    }
+    return count;
+}
+
+// Points of a path are inside all cones, where laws and reports would find every contact loaded and
+// none that slides.
+TEST(CentralPath, GivesOpenContactsNoImpulseAndSlidingOnesAllOfTheirFriction) {
+    const ContactProblem problem = young_lattice(8, 17, 20);
+    SolverSettings settings = tight(1e-10);
+    settings.max_iterations = 1000000;
+    const SolverResult exact = solve("central-path", problem, settings);
+    const auto [loaded, sliding] = loaded_and_sliding(problem, exact.impulses);
+    ASSERT_GT(loaded, 50u);
+    ASSERT_GT(sliding, 5u);
+    ASSERT_LT(loaded + 20, problem.contacts.size());
+    for (const double tolerance : {1e-3, 1e-4, 1e-6}) {
+        settings.tolerance = tolerance;
+        const SolverResult result = solve("central-path", problem, settings);
+        EXPECT_TRUE(result.converged);
+        EXPECT_LE(natural_map_residual(problem, result.impulses), tolerance);
+        const auto [some, slide] = loaded_and_sliding(problem, result.impulses);
+        std::printf("tolerance %.0e: %ld iterations, %zu of %zu loaded (%zu), %zu sliding (%zu)\n",
+                    tolerance, static_cast<long>(result.iterations), some,
+                    problem.contacts.size(), loaded, slide, sliding);
+        EXPECT_NEAR(static_cast<double>(some), static_cast<double>(loaded), 0.1 * loaded);
+        EXPECT_GT(slide, sliding / 2);
+    }
+}
+
 TEST(CentralPath, SolvesRollingResistance) {
     const ContactProblem problem = random_problem({.rolling = 0.1, .seed = 4});
     const SolverResult result = solve("central-path", problem, tight());

@@ -20,8 +20,8 @@ constexpr std::int64_t sweeps_per_turn = 8000;
 // the first; the limit is raised by `growth` each time all sizes have been tried.
 constexpr std::array<double, 4> sizes = {30.0, 10.0, 100.0, 300.0};
 constexpr std::int64_t first_budget = 1000, growth = 2, most_growths = 6;
-// Sweeps are tried when the residual is below `finishing`, and again below `retry` of its last
-// value.
+// Sweeps are tried when the residual is below `finishing` or the tolerance, and again below `retry`
+// of its last value.
 constexpr double finishing = 1e-5, retry = 0.3;
 constexpr std::int64_t finishing_sweeps = 200;
 
@@ -55,7 +55,9 @@ class Search {
             used_ += path.factorisations() - counted;
             counted = path.factorisations();
         };
-        double finish_below = finishing;
+        // A point of the path is inside all cones: open contacts have impulses, and none slides. So
+        // it is no result by itself, unless sweeps cannot put it on the cones to the tolerance.
+        double finish_below = std::max(finishing, settings_.tolerance);
         const std::int64_t most = std::min(budget, left());
         while (!over() && path.advance(std::min(most, path.factorisations() + left()))) {
             count();
@@ -65,6 +67,7 @@ class Search {
             take_if_better(sweeps_from(latest_.impulses, finishing_sweeps));
         }
         count();
+        best_.converged = best_.residual <= settings_.tolerance;
     }
 
     SolverResult result() {
@@ -87,7 +90,7 @@ class Search {
     }
 
     void take_if_better(SolverResult result) {
-        if (looked_ && !(result.residual < best_.residual)) return;
+        if (looked_ && !result.converged && !(result.residual < best_.residual)) return;
         best_ = std::move(result);
         looked_ = true;
         on_path_ = false;
@@ -102,7 +105,7 @@ class Search {
         latest_.velocities = body_velocities(problem_, latest_.impulses);
         latest_.residual =
             natural_map_residual(problem_, w_, latest_.velocities, latest_.impulses, floor_);
-        latest_.converged = latest_.residual <= settings_.tolerance;
+        latest_.converged = false;
         // A path does not improve the natural map at every step, so the best point is kept.
         if (latest_.residual < best_.residual) best_ = latest_, on_path_ = true;
         return latest_.residual;
