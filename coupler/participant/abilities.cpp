@@ -51,6 +51,8 @@ std::string law(const Settings& s) {
     // Without a liquid there are no films.
     const bool dry = s.has("fluid.enabled") && !s.flag("fluid.enabled");
     if (!dry && is_text(s, "contact.film", "none")) return named(s, "contact.film");
+    if (is_text(s, "contact.impact", "newton") && !coefficient(s, "restitution").empty())
+        return named(s, "contact.impact");
     for (const char* number : {"restitution_tangential", "rolling_friction", "torsion_friction"})
         if (std::string found = coefficient(s, number); !found.empty()) return found;
     return {};
@@ -98,6 +100,10 @@ std::string beyond_contacts(const Abilities& able, const Settings& s) {
     const bool materials = is_given(s, "run.materials") ||
                            (s.has("run.side_material") && s.integer("run.side_material") != 0);
     if (!able.materials && materials) return "contact.materials: it knows one material";
+    // It replaces contact.friction and the like, which a program of one material reads.
+    for (const auto& [key, value] : s.entries())
+        if (!able.materials && key.rfind("contact.pairs.default-default.", 0) == 0)
+            return named(s, key) + ": it knows no pairs of materials";
     if (const std::string one = coefficient(s, "friction"); !able.friction && !one.empty())
         return one + ": it knows no friction";
     if (const std::string one = coefficient(s, "restitution"); !able.restitution && !one.empty())

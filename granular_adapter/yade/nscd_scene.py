@@ -36,7 +36,7 @@ class Store:
              'adhesion_range': 'run.diameter', 'adhesion_length': 'run.diameter',
              'adhesion_force': 'run.grain_weight'}
 
-    def __init__(self, case):
+    def __init__(self, case, corners):
         options = {key.removeprefix('contact.'): value for key, value in case.items()
                    if key.startswith('contact.') and key.count('.') == 1 and key != 'contact.friction'}
         for key, unit in self.UNITS.items():
@@ -44,8 +44,8 @@ class Store:
                 options[key] = repr(float(options[key]) * float(case[unit]))
         self.settings = {'gravity': [0.0, -float(case['run.gravity']), 0.0], 'show': 0, 'options': options,
                          'diameter': float(case['run.diameter'])}
-        if not_in_yade(case):
-            self.settings['not_in_yade'] = not_in_yade(case)
+        if missing := not_in_yade(case, corners):
+            self.settings['not_in_yade'] = missing
         self.engine = turbidite_contact.memory.holder(self.settings)
 
     def keep(self, contacts):
@@ -60,34 +60,43 @@ class Scene:
         self.labels = []   # labels of YADE's materials, by material index of the grains
         self.sides, self.plates = [], []  # body ids of the walls
         self.case = {}
+        self.corners = False     # of some grain
         self.script = None       # users_script
         self.participant = None  # turbidite_yade.Participant, when windows are played
         self.engine_error = None
         self.over = False        # the run, for this program
 
     def create(self, settings, grains):
-        """Adds the walls and one body per grain; returns states and turns (turn.hpp) in the order of `grains`."""
+        """Adds the walls and one body per grain, in the order of their ids; returns states and turns (turn.hpp) in the
+        order of `grains`."""
         self.case = settings
         self._create_materials(settings, grains[0]['density'] if grains else 1.0)
-        self.sides = list(domain_sides.create_walls(settings, 'grains'))
-        states, turns, in_space = [], [], domain_sides.in_space(settings)
-        for grain in grains:
-            body = self._create_polygon(grain) if grain['vertices'] else self._create_sphere(grain)
-            turns.append(axes_of(body) if grain['vertices'] else None)
-            state = body.state
-            # As in the contact problem: per unit length in the plane.
-            state.mass = grain['mass']
-            state.inertia = (Vector3(1, 1, 1) if in_space else Vector3(0.5, 0.5, 1)) * grain['inertia']
-            state.blockedDOFs = 'xyzXYZ' if grain['prescribed'] else '' if in_space else 'zXY'
-            state.vel = grain['velocity']
-            state.angVel = grain['angular_velocity']
-            self.body_of[grain['id']] = O.bodies.append(body)
-            states.append(O.bodies[self.body_of[grain['id']]].state)
+        self.sides = list(domain_sides.create_walls(settings, self.labels[int(settings.get('run.side_material', 0))]))
+        self.corners = any(grain['vertices'] for grain in grains)
+        in_space = domain_sides.in_space(settings)
+        # What the engine remembers of a contact is named by the smaller id first: bodies that stand in for grains in a
+        # saved scene (turbidite_contact.attach) are in the same order.
+        made = {grain['id']: self._add_body(grain, in_space) for grain in sorted(grains, key=lambda grain: grain['id'])}
+        states, turns = ([made[grain['id']][k] for grain in grains] for k in (0, 1))
         O.dt = float(settings['run.step'])
         if walls_of_the_engine(settings):
             print(f'{walls_of_the_engine(settings)} walls inside the box are not in YADE\'s scene: the contact engine '
                   'has them, and recorders and pictures of YADE do not show them', flush=True)
         return states, turns
+
+    def _add_body(self, grain, in_space):
+        """(state, turn) of the body of a grain."""
+        body = self._create_polygon(grain) if grain['vertices'] else self._create_sphere(grain)
+        turn = axes_of(body) if grain['vertices'] else None
+        state = body.state
+        # As in the contact problem: per unit length in the plane.
+        state.mass = grain['mass']
+        state.inertia = (Vector3(1, 1, 1) if in_space else Vector3(0.5, 0.5, 1)) * grain['inertia']
+        state.blockedDOFs = 'xyzXYZ' if grain['prescribed'] else '' if in_space else 'zXY'
+        state.vel = grain['velocity']
+        state.angVel = grain['angular_velocity']
+        self.body_of[grain['id']] = O.bodies.append(body)
+        return O.bodies[self.body_of[grain['id']]].state, turn
 
     def _create_materials(self, settings, density):
         """YADE materials for the scene's own use; the contact engine has its own table."""
@@ -126,7 +135,7 @@ class Scene:
         """Called when bodies are in place: adds the engines and runs the user's additions to the scene."""
         global _playing
         _playing = self
-        self.store = Store(self.case)
+        self.store = Store(self.case, self.corners)
         windows = windows_before(sys.argv[1])
         begin_at(windows)
         O.engines = [PyRunner(command=WINDOW, iterPeriod=1, label='turbidite'), self.store.engine]
@@ -201,11 +210,33 @@ def walls_of_the_engine(case):
     return len(walls.split(';')) if walls and domain_sides.in_space(case) else 0
 
 
-def not_in_yade(case):
-    """What holds the grains of a case and is not in YADE's scene, in words; '' without any."""
+def plates_of_their_own(case):
+    """How many walls inside the box, in the plane, have a thickness or another friction than grains; YADE's facets have
+    neither."""
+    if domain_sides.in_space(case) or not case.get('run.walls'):
+        return 0
+    plates = [[float(number) for number in plate.split()] for plate in case['run.walls'].split(';')]
+    # id x1 y1 x2 y2 vx vy spin px py friction thickness
+    return sum(plate[10] != float(case['contact.friction']) or plate[11] > 0.0 for plate in plates)
+
+
+def remembers_states(case):
+    """The law of a case whose contacts have states that outlive a window, in words; '' without."""
+    for key, plain in (('adhesion', 'none'), ('law', 'coulomb')):
+        if case.get('contact.' + key, plain) != plain:
+            return case['contact.' + key]
+    return ''
+
+
+def not_in_yade(case, corners):
+    """What holds the grains of a case and is not in YADE's scene, in words; '' without any. `corners`: it has polygons."""
     parts = []
     if walls_of_the_engine(case):
         parts.append(f'{walls_of_the_engine(case)} walls inside the box (domain.walls_file)')
+    if own := plates_of_their_own(case):
+        parts.append(f'{own} walls inside the box of a thickness or friction of their own (domain.walls_file)')
+    if corners and remembers_states(case):
+        parts.append(f'{remembers_states(case)} between polygons, whose corners YADE numbers in another order,')
     cyclic = [side for side in domain_sides.NAMES if case.get('domain.' + side) == 'cyclic']
     if cyclic:
         parts.append(f'cyclic sides ({", ".join(cyclic)})')

@@ -53,8 +53,8 @@ const Asked all_asked[] = {
     {"contact.law", "sticky", "contact.law = sticky", &Abilities::laws},
     {"contact.adhesion", "cohesion", "contact.adhesion = cohesion", &Abilities::laws},
     {"contact.film", "lubrication", "contact.film = lubrication", &Abilities::laws},
-    {"contact.pairs.default-default.friction", "0.5", "contact.pairs.default-default.friction",
-     &Abilities::friction},
+    {"contact.pairs.default-default.friction", "0", "contact.pairs.default-default.friction = 0",
+     &Abilities::materials},
     {"contact.materials.steel.friction", "0.5", "contact.materials.steel", &Abilities::friction},
     {"contact.restitution", "0.5", "contact.restitution = 0.5", &Abilities::restitution},
     {"contact.materials.steel.restitution", "0.5", "contact.materials.steel.restitution = 0.5",
@@ -88,6 +88,17 @@ TEST(Abilities, WhatGoesBeyondIsRefusedByItsKeyUnlessTheProgramKnowsIt) {
         others.*asked.needed = false;
         EXPECT_NE(beyond(others, s, {}), "") << asked.key;
     }
+}
+
+TEST(Abilities, AnotherImpactLawIsOneWhereThereIsRestitution) {
+    const Abilities able{.friction = true, .restitution = true};
+    Settings s = plain();
+    s.set("contact.impact", std::string("moreau"));
+    EXPECT_EQ(beyond(able, s, {}), "");
+    s.set("contact.restitution", std::string("0.5"));
+    EXPECT_EQ(beyond(able, s, {}).rfind("contact.impact = moreau", 0), 0u);
+    s.set("contact.impact", std::string("newton"));
+    EXPECT_EQ(beyond(able, s, {}), "");
 }
 
 TEST(Abilities, AFilmWithoutALiquidAsksForNothing) {

@@ -286,8 +286,8 @@ TEST(CentralPath, GivesOpenContactsNoImpulseAndSlidingOnesAllOfTheirFriction) {
         EXPECT_LE(natural_map_residual(problem, result.impulses), tolerance);
         const auto [some, slide] = loaded_and_sliding(problem, result.impulses);
         std::printf("tolerance %.0e: %ld iterations, %zu of %zu loaded (%zu), %zu sliding (%zu)\n",
-                    tolerance, static_cast<long>(result.iterations), some,
-                    problem.contacts.size(), loaded, slide, sliding);
+                    tolerance, static_cast<long>(result.iterations), some, problem.contacts.size(),
+                    loaded, slide, sliding);
         EXPECT_NEAR(static_cast<double>(some), static_cast<double>(loaded), 0.1 * loaded);
         EXPECT_GT(slide, sliding / 2);
     }
