@@ -18,6 +18,10 @@
 #include "coupler/transport/channel.hpp"
 #include "coupler/transport/doorbell.hpp"
 
+// Of a world_isolation.cpp that is linked or preloaded; null without.
+extern "C" [[gnu::weak]] MPI_Comm turbidite_world_split_before();
+extern "C" [[gnu::weak]] void turbidite_world_split_now(MPI_Comm local);
+
 namespace turbidite {
 namespace {
 
@@ -62,9 +66,12 @@ MpiEnvironment::~MpiEnvironment() {
 }
 
 MPI_Comm split_world(Role role) {
-    MPI_Comm local = MPI_COMM_NULL;
     note_start(StartStep::split);
+    // Where the program has called MPI_Init itself, the isolation of its world has split it there.
+    MPI_Comm local = turbidite_world_split_before ? turbidite_world_split_before() : MPI_COMM_NULL;
+    if (local != MPI_COMM_NULL) return local;
     PMPI_Comm_split(MPI_COMM_WORLD, first_colour + static_cast<int>(role), 0, &local);
+    if (turbidite_world_split_now) turbidite_world_split_now(local);
     return local;
 }
 

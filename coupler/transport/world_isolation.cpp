@@ -11,14 +11,18 @@ namespace {
 
 MPI_Comm own_world = MPI_COMM_NULL;
 
+/// When preloaded into a stock program, isolate_world is not called.
+const char* preloaded_role() {
+    return std::getenv("TURBIDITE_ROLE");
+}
+
 MPI_Comm isolated(MPI_Comm comm) {
     // Before the split the world is still the real one.
     return comm == MPI_COMM_WORLD && own_world != MPI_COMM_NULL ? own_world : comm;
 }
 
-// When preloaded into a stock program, isolate_world is not called: the split is made here.
 void split_if_asked() {
-    const char* role = std::getenv("TURBIDITE_ROLE");
+    const char* role = preloaded_role();
     if (own_world == MPI_COMM_NULL && role != nullptr)
         // The one collective call on the world, with the colour that split_world uses (world.cpp).
         PMPI_Comm_split(MPI_COMM_WORLD, 1000 + std::atoi(role), 0, &own_world);
@@ -35,6 +39,15 @@ void isolate_world(MPI_Comm local) {
 }  // namespace turbidite
 
 extern "C" {
+
+// For the participant library in the same program, which makes the split where nobody has
+// (world.cpp).
+MPI_Comm turbidite_world_split_before() {
+    return own_world;
+}
+void turbidite_world_split_now(MPI_Comm local) {
+    if (own_world == MPI_COMM_NULL && preloaded_role() != nullptr) own_world = local;
+}
 
 int MPI_Init(int* argc, char*** argv) {
     const int status = PMPI_Init(argc, argv);

@@ -183,6 +183,37 @@ TEST_F(AdapterKit, TheInstalledIsolationDividesTheWorld) {
     EXPECT_EQ(answer.out, "a world of 1\na world of 2\na world of 2\n") << answer.err;
 }
 
+// A grains program that calls MPI before the library does, and believes that it owns the world.
+TEST_F(AdapterKit, AnIsolatedProgramJoinsTheRun) {
+    scratch.write("owner.c",
+                  "#include <mpi.h>\n#include <stdio.h>\n"
+                  "#define main play\n#include \"falling.c\"\n#undef main\n"
+                  "int main(int argc, char** argv) {\n"
+                  "    int size;\n"
+                  "    MPI_Init(&argc, &argv);\n"
+                  "    MPI_Comm_size(MPI_COMM_WORLD, &size);\n"
+                  "    fprintf(stderr, \"a world of %d\\n\", size);\n"
+                  "    const int code = play(argc, argv);\n"
+                  "    MPI_Finalize();\n"
+                  "    return code;\n"
+                  "}\n");
+    const Answer build =
+        shell(CMAKE_PROGRAM " --install " TURBIDITE_BUILD_DIR
+                            " --component dev --prefix prefix && "
+                            "cp prefix/share/turbidite/examples/falling.c . && mpicc owner.c -o "
+                            "owner $(PKG_CONFIG_PATH=prefix/lib/pkgconfig pkg-config --cflags "
+                            "--libs turbidite) -lm");
+    ASSERT_EQ(build.code, 0) << build.out << build.err;
+    const std::string here = scratch.path().string();
+    scratch.write("isolated", "#!/bin/sh\nTURBIDITE_ROLE=2 LD_PRELOAD=" + here +
+                                  "/prefix/lib/libturbidite_world_isolation.so exec " + here +
+                                  "/owner \"$@\"\n");
+    std::filesystem::permissions(scratch.path() / "isolated", std::filesystem::perms::owner_all);
+    const Answer answer = run_external(here + "/isolated", "--set time.end=0.1");
+    EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+    EXPECT_SAYS(text(run_folder() / "logs/grains.log"), "a world of 1\n");
+}
+
 TEST_F(AdapterKit, CheckSaysWhetherTheProgramIsThere) {
     const std::string check = std::string(TURBIDITE_PROGRAM) +
                               " check settle.yaml --set grains.adapter=external --set "

@@ -200,6 +200,27 @@ TEST(SecondOrder, CutsWindowsByCourantNumberAndDecay) {
     cut(std::numeric_limits<double>::quiet_NaN(), 0.1, 1, true);  // refused elsewhere
 }
 
+/// Of values all over the rows, of which a direct solve shows the first ones alone.
+TEST(BoxStep, ABadPressureIsInTheSumOfTheVelocity) {
+    constexpr int n = 16;
+    const AxisOperator axis{n, 1.0 / n, End::periodic, End::periodic};
+    BoxFluid fluid;
+    fluid.velocity = fluid.pressure = {axis, axis};
+    BoxStep step(fluid);
+    step.keep_pressure();
+    ImpulsesOfWindow impulses;
+    impulses.dt = 0.1;
+    for (const double bad : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
+        step.pressure()[n * n - n / 2] = bad;
+        std::fill_n(step.velocity(0), step.cells(), 0.5);
+        step.hold_solenoidal_flux(impulses.dt);
+        step.transport(impulses.dt, &impulses);
+        step.release_flux();
+        EXPECT_EQ(std::isfinite(impulses.sum_u), bad == 0.0) << impulses.sum_u;
+    }
+    EXPECT_TRUE(std::isfinite(step.velocity(0)[0])) << "one that tests nothing";
+}
+
 /// A stream that sets in at once is carried by the flux of the window's middle, 3/2 of its own; in
 /// the next window by its own.
 TEST(SecondOrder, TellsTheCourantNumberOfTheFluxThatIsCarried) {
