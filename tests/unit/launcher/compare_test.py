@@ -222,8 +222,8 @@ class Compare(RunFolderTest):
     def write_seed(self, name, seed, scale):
         """|<u>| rises to `scale` at 2 t_c and falls to 0 at 4 t_c."""
         self.write_run(name, scale, case=CASE + f'random:\n  seed: {seed}\n')
-        self.write(f'{name}/history.csv', 'step,time,mean_velocity_norm,contact_iterations\n'
-                   + ''.join(f'{10 * t},{t},{scale * (1 - abs(t - 2) / 2)},{"" if t == 0 else 7}\n'
+        self.write(f'{name}/history.csv', 'step,time,mean_velocity_norm,contact_iterations,contact_residual\n'
+                   + ''.join(f'{10 * t},{t},{scale * (1 - abs(t - 2) / 2)},{"," if t == 0 else "7,1e-9"}\n'
                              for t in range(5)))
         self.write(f'{name}/run.json', json.dumps(
             {'status': 'done', 'maxima': {'penetration': 1e-4 * scale, 'unconverged_windows': seed}}))
