@@ -33,6 +33,7 @@ class Network:
     normals: np.ndarray   # (n, d) unit
     forces: np.ndarray    # (n,) along the normal, > 0 repulsive
     between_grains: np.ndarray  # (n,) bool; others are at walls
+    films: int = 0        # points held apart by films of liquid, which are not among these
 
 
 def view(run, networks):
