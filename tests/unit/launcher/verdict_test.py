@@ -154,6 +154,11 @@ class Commands(unittest.TestCase):
         self.assertEqual(run.command(), "turbidite run '/a/my case.yaml' --set 'domain.size=[4, 6]' --set time.end=2 "
                          '--from runs/x@3 --out /runs/y')
 
+    def test_name_no_run_that_grains_were_poured_in(self):
+        """It was played by the command itself."""
+        run = run_with(record={'case_file': 'heap', 'from': 'runs/poured', 'hash_before_pouring': 'a1b2'})
+        self.assertEqual(run.command(), 'turbidite run heap')
+
 
 class KeyNumbers(unittest.TestCase):
     def test_have_units(self):
