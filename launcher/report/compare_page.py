@@ -14,6 +14,7 @@ import surface
 from analysis import concentration
 from differences import compared_times
 from document.page import Page
+from document.typeset import Code
 from head import facts
 from seeds import SEED
 
@@ -45,7 +46,7 @@ def make_page(comparison, folder, command):
     page.paragraph(facts.units_in_words(members[0].data), 'note')
     if comparison.remark:
         page.paragraph(comparison.remark, 'remark')
-    page.paragraph(f'Made by: {command}', 'note')
+    page.paragraph(['Made by: ', Code(command)], 'note')
     page.contents()
     add_overview(page, comparison)
     add_parameters(page, comparison)
@@ -135,7 +136,7 @@ def add_parameters(page, comparison):
     if comparison.parameters:
         case = comparison.members[0].runs[0].folder / 'case.yaml'
         units = run_data.read_units(case) if case.exists() else {}
-        page.table([[f'{key} [{units[key]}]' if key in units else key] + values
+        page.table([[f'{key} [{units[key]}]' if key in units else key] + list(map(Code, values))
                     for key, values in comparison.parameters],
                    header=['key'] + [member.name for member in comparison.members])
     else:

@@ -4,6 +4,7 @@ import numpy as np
 
 import grain_files
 import solid
+from document.typeset import Code
 
 SIDES = {False: ('left', 'right', 'bottom', 'top'), True: ('left', 'right', 'bottom', 'top', 'front', 'back')}
 
@@ -15,10 +16,10 @@ def coupling(case):
 
 
 def version_of(record):
-    """'0.1.0', with the commit where it was recorded."""
+    """['0.1.0'], with the commit where it was recorded; as parts of a text."""
     versions = record.get('versions') or {}
-    commit = f' (commit {versions["commit"]})' if versions.get('commit') else ''
-    return versions.get('turbidite', 'of unknown version') + commit
+    commit = [' (commit ', Code(versions['commit']), ')'] if versions.get('commit') else []
+    return [versions.get('turbidite', 'of unknown version'), *commit]
 
 
 def by_box(record):
@@ -26,11 +27,11 @@ def by_box(record):
 
 
 def facts(run):
-    """(name, value) pairs of the case, with units."""
+    """(name, value) pairs of the case, with units; a value may be a list of parts."""
     record, case = run.record, run.case
     rows = [
-        ('made by', f'turbidite {version_of(record)}{date_of(record)}'),
-        *([('command', run.command())] if run.command() else []),
+        ('made by', ['turbidite ', *version_of(record), date_of(record)]),
+        *([('command', Code(run.command()))] if run.command() else []),
         ('domain', f'{case.get("domain.size", "unknown")} D; ' + ', '.join(
             f'{side} {case[f"domain.{side}"]}' for side in SIDES[run.in_space()] if f'domain.{side}' in case)),
         ('grains', f'{record.get("grains", "?")} {case.get("grains.shape")}s, {density_of(run)}, {friction_of(case)}, '

@@ -139,7 +139,8 @@ class Compare(RunFolderTest):
         page = (self.folder / 'page.html').read_text()
         self.assertIn('<a href="two/report.html">two</a>', page)
         self.assertNotIn('one/report.html', page)
-        self.assertIn(f'Made by: turbidite compare {self.folder}/one {self.folder}/two --out {self.folder}/page.html', page)
+        self.assertIn(f'Made by: <code>turbidite compare {self.folder}/one {self.folder}/two --out {self.folder}/page.html'
+                      '</code>', page)
 
     def test_only_the_common_time_counts(self):
         self.write_run('one', 1.0)
@@ -170,6 +171,13 @@ class Compare(RunFolderTest):
             {'from_window': 0}, {'from_window': 20, 'overrides': ['contact.friction=0.5']}]}))
         self.assertEqual(self.run_it('one', 'two'), (0, ''))
         self.assertEqual(self.result()['parameters'], {'resumed': ['', 'from window 20 on with contact.friction=0.5']})
+
+    def test_values_of_the_case_can_be_copied(self):
+        self.write_run('one', 1.0, case=CASE + 'contact:\n  tolerance: 1e-8\n')
+        self.write_run('two', 1.0, case=CASE + 'contact:\n  tolerance: 1e-4\n')
+        self.assertEqual(self.run_it('one', 'two'), (0, ''))
+        self.assertIn('<td>contact.tolerance</td><td><code>1e-8</code></td><td><code>1e-4</code></td>',
+                      (self.folder / 'page.html').read_text())
 
     def test_rest_of_a_group_is_that_of_its_runs(self):
         speeds = {'seed-1': (0, 1, 0, 0), 'seed-2': (0, 1, 1, 0), 'seed-3': (0, 1, 1, 1)}

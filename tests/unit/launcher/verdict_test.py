@@ -154,6 +154,13 @@ class Commands(unittest.TestCase):
         self.assertEqual(run.command(), "turbidite run '/a/my case.yaml' --set 'domain.size=[4, 6]' --set time.end=2 "
                          '--from runs/x@3 --out /runs/y')
 
+    def test_can_be_copied(self):
+        record = {'case_file': 'a', 'overrides': ['contact.tolerance=1e-4'], 'versions': {'turbidite': '0.1.0', 'commit': '12e45'}}
+        page = Page('title')
+        page.table(facts.facts(run_with(record=record, case={'domain.size': '[4, 6]'})))
+        self.assertIn('<code>turbidite run a --set contact.tolerance=1e-4</code>', page.text())
+        self.assertIn('turbidite 0.1.0 (commit <code>12e45</code>)', page.text())
+
     def test_name_no_run_that_grains_were_poured_in(self):
         """It was played by the command itself."""
         run = run_with(record={'case_file': 'heap', 'from': 'runs/poured', 'hash_before_pouring': 'a1b2'})
