@@ -437,6 +437,20 @@ class Report(RunFolderTest):
             self.assertFalse(found.bound)
             self.assertGreaterEqual(((times >= found.begin) & (times <= found.end)).sum(), 3)
 
+    def test_fits_over_the_same_rows_bound_nothing(self):
+        """Rows 1 t_c apart: all fits are over three of them, 2 t_c. Rows 0.26 t_c apart: three to eight of them."""
+        self.write_all()
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche'))
+        for row, words in ((1.0, 'the rows are too far apart for fits of other lengths, which would bound it.'),
+                           (0.26, 't_c with fits over 0.52 to 1.8 t_c.')):
+            times = np.arange(0.0, 13.0, row)
+            velocity = 0.4 / (1.0 + np.exp(6.0 - times))
+            self.write('history.csv', 'step,time,mean_velocity_norm\n'
+                       + ''.join(f'{n},{t},{u}\n' for n, (t, u) in enumerate(zip(times, velocity))))
+            run = run_data.load_run(self.folder)
+            self.assertIn(words, relaxation.caption(run))
+            self.assertEqual(relaxation.relaxation(run).spread is None, row == 1.0)
+
     def test_rows_need_not_divide_the_length_of_the_fit(self):
         time = 0.26 * np.arange(60)
         found = relaxation.steepest(time, 0.1 * np.maximum(time - 3.0, 0.0), 1.0)
