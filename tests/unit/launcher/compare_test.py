@@ -51,6 +51,13 @@ class Differences(unittest.TestCase):
             apart = difference((first, first**2), (second, second**2))
             self.assertAlmostEqual(apart.largest, (0.5 - 1.0 / 3.0) * (2.0 / 3.0 - 0.5))
 
+    def test_a_peak_between_the_rows_of_the_coarser_one_is_the_scale(self):
+        """The first has its peak of 5 at t = 1.5, where the other has no row, and 8 after their common time."""
+        first = np.array([0.0, 1.0, 1.5, 2.0, 5.0]), np.array([0.0, 1.0, 5.0, 2.0, 8.0])
+        self.assertEqual(difference(first, (np.arange(3.0), np.zeros(3))).scale, 5.0)
+        # At the end of the common time it has 4 by interpolation.
+        self.assertAlmostEqual(difference(first, (np.array([1.7, 3.0]), np.zeros(2))).scale, 4.0)
+
     def test_two_curves_that_share_one_row_are_compared_between_it_and_the_end(self):
         early, late = (np.array([0.0, 2.0]), np.array([0.0, 2.0])), (np.array([1.0, 5.0]), np.array([1.5, 5.5]))
         apart = difference(early, late)
