@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Planes of the fluid in space (output.slices): the files in fluid/slices, and their pictures: the vertical velocity in
-colour as in the plane (red up, blue down, white at rest), the pressure, and the spheres where the plane cuts them."""
-from dataclasses import dataclass
-
+"""Pictures of planes of the fluid in space (slice_files.py): the vertical velocity in colour as in the plane (red up, blue
+down, white at rest), the pressure, and the spheres where the plane cuts them."""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -12,9 +10,9 @@ import grain_files
 import pictures
 from analysis.snapshots import evenly
 from document.typeset import plain
-from space import free_surface, rectilinear
+from space import free_surface
+from space.slice_files import AXES, read, series
 
-AXES = 'xyz'
 PANEL_WIDTH = 420
 MOST_TIMES = 6
 PRESSURES = 2
@@ -23,47 +21,6 @@ TALLEST = 7.0
 MARGIN = 0.55          # of the labels
 COLOURED_PART = pictures.COLOURED_PART
 WALLS = ListedColormap(['#8a8a8a'])
-
-
-@dataclass
-class Slice:
-    """One plane at one time, in the units of the run. Arrays are (rows, columns) of a picture: `up` by `across`."""
-
-    time: float
-    axis: int               # that the plane is normal to
-    place: float            # along it
-    across: int             # axis to the right
-    up: int                 # axis upwards
-    edges: list             # of the cells, [across, up]
-    pressure: np.ndarray    # over rho_f
-    velocity: np.ndarray    # (rows, columns, 3)
-    covered: np.ndarray     # share that spheres and walls cover
-
-    def name(self, run):
-        return f'{AXES[self.axis]} = {self.place / run.scale("D"):.4g} D'
-
-
-def series(run):
-    """[[(time, path), ...] of each plane], in the order of output.slices; empty without any."""
-    planes = {}
-    for time, part, path in rectilinear.entries(run, run.folder / 'fluid' / 'slices' / 'slices.pvd'):
-        planes.setdefault(part, []).append((time, path))
-    return [planes[part] for part in sorted(planes)]
-
-
-def read(time, path):
-    """A file of the fluid program (rectilinear.py); ValueError if it is damaged."""
-    arrays = rectilinear.arrays(path)
-    edges = [arrays[name] for name in AXES]
-    axis = int(np.argmin([len(along) for along in edges]))
-    across, up = [other for other in range(3) if other != axis]  # the first runs fastest
-    shape = len(edges[up]) - 1, len(edges[across]) - 1
-    pressure, covered = (arrays[name].reshape(shape) for name in ('p', 'covered'))
-    velocity = arrays['U'].reshape(*shape, 3)
-    if axis == 0:  # y upwards, z to the right
-        across, up = up, across
-        pressure, covered, velocity = pressure.T, covered.T, velocity.transpose(1, 0, 2)
-    return Slice(time, axis, float(edges[axis][0]), across, up, [edges[across], edges[up]], pressure, velocity, covered)
 
 
 def cut_grains(run, one, grains, larger=0.0):

@@ -24,7 +24,7 @@ import run_data
 import seeds
 from analysis import concentration, energy, snapshots, weight_balance
 from document.page import Page
-from space import ball_image, camera, chains, free_surface, scene, sequence, slices, walls
+from space import ball_image, camera, chains, free_surface, scene, sequence, slice_files, slices, walls
 
 CASE = """dimension: 3
 domain:
@@ -203,7 +203,7 @@ class Slices(SpaceRun):
                           for k, name in enumerate(('z1.25', 'x2')))
         self.write('fluid/slices/slices.pvd', f'<VTKFile><Collection>{entries}</Collection></VTKFile>')
         self.run_data = run_data.load_run(self.folder)
-        self.z, self.x = (slices.read(*plane[0]) for plane in slices.series(self.run_data))
+        self.z, self.x = (slice_files.read(*plane[0]) for plane in slice_files.series(self.run_data))
 
     def test_rows_are_upwards_whatever_the_axis(self):
         self.assertEqual((self.z.axis, self.z.place, self.z.pressure.shape), (2, 1.25, (10, 12)))
