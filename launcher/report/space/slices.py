@@ -79,20 +79,35 @@ def load(run, time, path):
 
 def velocity_limit(run, shown):
     """Symmetric limit of the colours [u_c]."""
-    return float(max([0.05] + [np.quantile(np.abs(one.velocity[..., 1]), COLOURED_PART) / run.scale('u_c')
+    return float(max([0.05] + [quantile(np.abs(one.velocity[..., 1]), areas(one), COLOURED_PART) / run.scale('u_c')
                                for one, _ in shown]))
+
+
+def areas(one):
+    """Of the cells: rows may be stretched."""
+    across, up = (np.diff(edges) for edges in one.edges)
+    return up[:, None] * across
+
+
+def quantile(values, weights, share):
+    """What this share of the weight does not exceed; np.quantile where weights are equal."""
+    order = np.argsort(values, axis=None)
+    sorted_values, sorted_weights = values.ravel()[order], weights.ravel()[order]
+    middles = np.cumsum(sorted_weights) - 0.5 * sorted_weights
+    return float(np.interp(middles[0] + share * (middles[-1] - middles[0]), middles, sorted_values))
 
 
 def level_free(one):
     """The pressure without its mean outside spheres: no side of the box need fix a level."""
     free = one.covered < 0.5
-    return one.pressure - (one.pressure[free].mean() if free.any() else 0.0)
+    return one.pressure - (np.average(one.pressure[free], weights=areas(one)[free]) if free.any() else 0.0)
 
 
 def pressure_limit(run, shown):
     """Symmetric limit of the colours [rho_f u_c^2]."""
-    return float(max([1e-3] + [np.quantile(np.abs(level_free(one)[one.covered < 0.5]), 0.995) / run.scale('u_c')**2
-                               for one, _ in shown if (one.covered < 0.5).any()]))
+    free = [(one, one.covered < 0.5) for one, _ in shown]
+    return float(max([1e-3] + [quantile(np.abs(level_free(one)[there]), areas(one)[there], 0.995) / run.scale('u_c')**2
+                               for one, there in free if there.any()]))
 
 
 def velocity_panel(run, one, grains, limit):

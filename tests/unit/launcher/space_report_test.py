@@ -222,6 +222,19 @@ class Slices(SpaceRun):
         self.assertAlmostEqual(float(slices.level_free(self.z)[3, 5]), 41 - free)
         plt.close('all')
 
+    def test_cells_count_by_their_area(self):
+        """Ten rows, the uppermost as high as the nine below it together: half of the plane."""
+        rows = np.append(np.linspace(0.0, 2.5, 10), 5.0)
+        self.z.edges = [self.z.edges[0], rows]
+        self.z.covered[:] = 0.0
+        self.z.pressure[:] = np.repeat([0.0, 4.0], [9, 1])[:, None]
+        np.testing.assert_allclose(slices.level_free(self.z)[[0, -1], 0], [-2.0, 2.0])
+        self.z.velocity[..., 1] = np.repeat([0.0, 1.0], [9, 1])[:, None]
+        self.assertEqual(slices.quantile(self.z.velocity[..., 1], slices.areas(self.z), 0.6), 1.0)
+        values = np.random.default_rng(1).normal(size=(3, 5))
+        self.assertAlmostEqual(slices.quantile(values, np.full((3, 5), 0.2), 0.9), np.quantile(values, 0.9))
+        self.assertEqual(slices.quantile(np.array([3.0]), np.array([0.1]), 0.9), 3.0)
+
     def test_side_views_have_the_floor_below(self):
         frame = scene.frame(self.run_data, [self.grains()], camera.SIDE)
         figure = sequence.panel(self.run_data, frame, self.grains(), 5.0)
