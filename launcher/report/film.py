@@ -15,6 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
+import grain_drawing
 import grain_files
 import pictures
 import run_data
@@ -47,12 +48,15 @@ class Shown:
                 yield picture
 
 
-def outermost(grains):
-    """One grain that reaches as far to the right, upwards and in depth as any of these."""
+def outermost(run, grains):
+    """One grain that reaches as far to the right, upwards and in depth as any of these are seen to."""
     if not len(grains.radii):
         return grains
-    far = (grains.positions() + grains.radii[:, None]).max(axis=0)
-    return grain_files.Grains(grains.time, far[None, :2], np.zeros(1), z=far[2:])
+    far, radius = (grains.positions() + grains.radii[:, None]).max(axis=0), 0.0
+    if not run.in_space() and grain_drawing.periods(run):
+        far[:2] = grain_drawing.reach(run, grains) * run.scale('D')
+        radius = grains.radii.min()  # its centre is inside the box: what is at a cyclic side is at the other one, too
+    return grain_files.Grains(grains.time, far[None, :2] - radius, np.array([radius]), z=far[2:])
 
 
 def frames(run, shown, working):
@@ -62,7 +66,7 @@ def frames(run, shown, working):
     for k, picture in enumerate(shown):
         working(f'reading {k + 1} of {len(shown)}')
         limits.append(pictures.shown_limit(run, [picture]))
-        ends.append(outermost(picture.grains))
+        ends.append(outermost(run, picture.grains))
     if not limits:
         return None
     limit = max(limits)
