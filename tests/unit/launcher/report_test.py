@@ -423,6 +423,25 @@ class Report(RunFolderTest):
                                          f'{own}</DataArray></PointData>'))
             self.assertEqual(told(), f'density {words}')
 
+    def test_the_case_tells_the_shapes_that_grains_have(self):
+        """A file of grains names others than grains.shape."""
+        self.write_all()
+        self.write('case.yaml', CASE.replace('  adapter', '  shape: disc\n  adapter'))
+        told = lambda: facts.kinds_of(run_data.load_run(self.folder))
+        self.assertEqual(told(), '2 discs')
+        record = json.loads((self.folder / 'run.json').read_text())
+        shapes = [{'kind': kind, 'vertices': []} for kind in ('disc', 'triangle', 'triangle')]
+        self.write('run.json', json.dumps({**record, 'shapes': shapes}))
+        self.assertEqual(told(), '2 discs')  # this output has no shapes
+        path = self.folder / 'grains/grains_00000000.vtp'
+        text = path.read_text()
+        for own, words in (('1 2', '2 triangles'), ('1 0', '1 triangle, 1 disc')):
+            path.write_text(text.replace('</PointData>', '<DataArray type="Int64" Name="shape" format="ascii">'
+                                         f'{own}</DataArray></PointData>'))
+            self.assertEqual(told(), words)
+        path.write_text(text[:300])
+        self.assertEqual(told(), '2 discs')
+
     def test_rows_need_not_be_equally_far_apart(self):
         """As after `resume --set output.interval`, or an output on request."""
         self.write_all()
