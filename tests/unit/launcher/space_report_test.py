@@ -3,6 +3,7 @@
 import json
 import unittest
 import warnings
+import weakref
 
 import matplotlib
 
@@ -566,6 +567,24 @@ class Report(SpaceRun):
         (self.folder / 'grains/grains.pvd').unlink()
         self.assertEqual(film.main(['film.py', str(self.folder)]), 2)
         self.assertFalse((self.folder / 'film.webp').exists())
+
+
+    def test_no_more_than_a_few_pictures_are_in_the_memory_at_once(self):
+        made, alive = [], []
+
+        def images():
+            for k in range(40):
+                image = Image.new('RGB', (8, 8), (6 * k, 0, 0))
+                made.append(weakref.ref(image))
+                alive.append(sum(one() is not None for one in made))
+                yield image
+        film.write(self.folder / 'many.webp', images(), 40)
+        self.assertLess(max(alive), 5)
+        with Image.open(self.folder / 'many.webp') as shown:
+            self.assertEqual(shown.n_frames, 40)
+            shown.seek(39)
+            self.assertAlmostEqual(shown.convert('RGB').getpixel((4, 4))[0], 234, delta=12)
+            self.assertEqual(shown.info['duration'], film.LAST_FRAME)
 
 
 if __name__ == '__main__':
