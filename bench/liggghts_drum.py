@@ -88,7 +88,8 @@ def main():
     seconds = liggghts.run_liggghts(folder, input_of(options, run, axis), options.ranks)
     dumps = [liggghts.read_dump(folder / f'state-{k + 1}.txt') for k in range(len(seconds))]
     dem8.print_quarters([(0.0, state.centres, state.radii)] + [
-        (time, liggghts.place(dump), dump['radius']) for time, dump in zip(times_of(len(dumps), options.seconds), dumps)], d)
+        (time, liggghts.place(dump), dump['radius'])
+        for time, dump in zip(times_of(len(dumps), options.seconds), dumps)], d)
     print(f'{sum(seconds):.4g} s of wall time, {len(dumps[-1]["radius"])} of {len(small)} spheres in the drum')
 
 

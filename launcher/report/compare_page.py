@@ -301,8 +301,8 @@ def add_analysis(page, members):
 def add_differences(page, comparison):
     page.heading(f'Differences from {comparison.members[0].name}')
     page.paragraph('Over the time both runs cover, at the rows of the run with fewer where the other has them too, otherwise '
-                   'interpolated linearly at the rows of both; rms in time; relative to the largest value of the first run in that '
-                   'time, by all of its own rows. End values are those of each run\'s last row.')
+                   'interpolated linearly at the rows of both; rms in time; relative to the largest value of the first '
+                   'run in that time, by all of its own rows. End values are those of each run\'s last row.')
     page.table(difference_rows(comparison), css='numbers',
                header=['quantity', 'run', 'rms', 'relative', 'largest', 'relative', 'end value', 'of the first'])
 

@@ -28,8 +28,8 @@ def networks(run):
 
 
 def read_network(run, time, contact_file, grain_file):
-    """Forces in units of the weight of a square (in space a cube) of D with the mean density of the grains. Points that a
-    film holds apart are no contacts."""
+    """Forces in units of the weight of a square (in space a cube) of D with the mean density of the grains. Points that
+    a film holds apart are no contacts."""
     arrays = grain_files.read_arrays(contact_file)
     vectors = grain_files.in_space if run.in_space() else grain_files.in_plane
     ends = vectors(arrays['Points']) / run.scale('D')

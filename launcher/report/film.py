@@ -60,8 +60,8 @@ def outermost(run, grains):
 
 
 def frames(run, shown, working):
-    """(number of pictures, function that draws one of them as a figure, with scales and view that serve all of them); the
-    function is None without pictures."""
+    """(number of pictures, function that draws one of them as a figure, with scales and view that serve all of them);
+    the function is None without pictures."""
     limits, ends = [], []
     for k, picture in enumerate(shown):
         working(f'reading {k + 1} of {len(shown)}')
@@ -113,8 +113,8 @@ def write(path, images, count):
     """All or nothing; `images` is an iterator over so many."""
     part = path.with_name(path.name + '.part')
     times = [FRAME_TIME] * (count - 1) + [LAST_FRAME]
-    next(images).save(part, format='WEBP', save_all=True, append_images=[Reel(images, count - 1)], duration=times, loop=0,
-                      quality=QUALITY)
+    next(images).save(part, format='WEBP', save_all=True, append_images=[Reel(images, count - 1)], duration=times,
+                      loop=0, quality=QUALITY)
     part.replace(path)
 
 

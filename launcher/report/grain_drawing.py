@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Draws grains on a plot with axes in D: discs, and polygons at their angle. Places may run on across cyclic sides for any
-number of periods: what is drawn is inside the box, with the images of what reaches through its sides."""
+"""Draws grains on a plot with axes in D: discs, and polygons at their angle. Places may run on across cyclic sides for
+any number of periods: what is drawn is inside the box, with the images of what reaches through its sides."""
 from dataclasses import fields, replace
 
 import matplotlib.pyplot as plt
@@ -34,8 +34,9 @@ def periods(run):
 
 
 def images(cyclic, centres, low, high):
-    """Which of some bodies, with these centres and between these corners (n, 2), are seen in a box with such periods, and by
-    how much they are to be moved: each to its place inside, and what reaches through a side to the other one as well."""
+    """Which of some bodies, with these centres and between these corners (n, 2), are seen in a box with such periods,
+    and by how much they are to be moved: each to its place inside, and what reaches through a side to the other one as
+    well."""
     chosen, shifts = np.arange(len(centres)), np.zeros_like(centres)
     for axis, period in cyclic:
         shifts[:, axis] = -period * np.floor(centres[:, axis] / period)

@@ -31,8 +31,8 @@ class Relaxation:
 
     @property
     def times(self):
-        """Smallest and largest t_relax of fits of all lengths; None where no fit has other rows, which tells nothing of how
-        much the length matters."""
+        """Smallest and largest t_relax of fits of all lengths; None where no fit has other rows, which tells nothing of
+        how much the length matters."""
         times = [self.time, *(fit.time for fit in self.others)]
         return (min(times), max(times)) if self.others else None
 

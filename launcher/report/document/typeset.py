@@ -25,8 +25,8 @@ class Code(str):
 
 
 def typeset(text):
-    """Escaped, and typeset; names of keys, columns and files have points or longer words and stay as they are. Also of a
-    list of texts, parts of which may be Code."""
+    """Escaped, and typeset; names of keys, columns and files have points or longer words and stay as they are. Also of
+    a list of texts, parts of which may be Code."""
     if isinstance(text, list):
         return ''.join(map(typeset, text))
     if isinstance(text, Code):

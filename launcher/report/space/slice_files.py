@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Planes of the fluid in space (output.slices): the files in fluid/slices. Apart from their pictures, since the Python door
-reads them without what draws."""
+"""Planes of the fluid in space (output.slices): the files in fluid/slices. Apart from their pictures, since the Python
+door reads them without what draws."""
 from dataclasses import dataclass
 
 import numpy as np

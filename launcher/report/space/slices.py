@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pictures of planes of the fluid in space (slice_files.py): the vertical velocity in colour as in the plane (red up, blue
-down, white at rest), the pressure, and the spheres where the plane cuts them."""
+"""Pictures of planes of the fluid in space (slice_files.py): the vertical velocity in colour as in the plane (red up,
+blue down, white at rest), the pressure, and the spheres where the plane cuts them."""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap

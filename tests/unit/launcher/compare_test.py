@@ -146,8 +146,8 @@ class Compare(RunFolderTest):
         page = (self.folder / 'page.html').read_text()
         self.assertIn('<a href="two/report.html">two</a>', page)
         self.assertNotIn('one/report.html', page)
-        self.assertIn(f'Made by: <code>turbidite compare {self.folder}/one {self.folder}/two --out {self.folder}/page.html'
-                      '</code>', page)
+        self.assertIn(f'Made by: <code>turbidite compare {self.folder}/one {self.folder}/two '
+                      f'--out {self.folder}/page.html</code>', page)
 
     def test_only_the_common_time_counts(self):
         self.write_run('one', 1.0)

@@ -57,15 +57,16 @@ class Discs(unittest.TestCase):
 
 
 class CyclicSides(unittest.TestCase):
-    """A box of 4 x 6 D, D = 2, cyclic in x: a disc that reaches through the left side, one that is three periods on, and a
-    triangle one period before, which reaches through the right side."""
+    """A box of 4 x 6 D, D = 2, cyclic in x: a disc that reaches through the left side, one that is three periods on,
+    and a triangle one period before, which reaches through the right side."""
 
     def setUp(self):
         self.run_data = run_data.RunData(Path('nowhere'), {'D': 2.0}, {'domain.size': '[4, 6]', 'domain.left': 'cyclic',
                                                            'fluid.enabled': 'false'})
         corners = np.array([[-0.5, 2.0], [0.5, 2.0], [-0.5, 3.0]])
-        self.grains = grain_files.Grains(0.0, np.array([[0.2, 2.0], [26.0, 4.0], [-0.5, 2.5]]), np.array([1.0, 1.0, 0.9]),
-                                         velocities=np.array([[1.0, 0], [2.0, 0], [3.0, 0]]), outlines={2: corners})
+        self.grains = grain_files.Grains(0.0, np.array([[0.2, 2.0], [26.0, 4.0], [-0.5, 2.5]]),
+                                         np.array([1.0, 1.0, 0.9]), outlines={2: corners},
+                                         velocities=np.array([[1.0, 0], [2.0, 0], [3.0, 0]]))
 
     def test_grains_are_drawn_inside_with_their_images(self):
         seen = grain_drawing.with_images(self.run_data, self.grains)
@@ -93,11 +94,13 @@ class CyclicSides(unittest.TestCase):
         self.run_data.case['domain.bottom'] = 'cyclic'
         one = grain_files.Grains(0.0, np.array([[8.1, -0.1]]), np.array([0.5]))
         seen = grain_drawing.with_images(self.run_data, one).centres
-        self.assertEqual({tuple(np.round(place, 9)) for place in seen}, {(0.1, 11.9), (8.1, 11.9), (0.1, -0.1), (8.1, -0.1)})
+        self.assertEqual({tuple(np.round(place, 9)) for place in seen},
+                         {(0.1, 11.9), (8.1, 11.9), (0.1, -0.1), (8.1, -0.1)})
 
     def test_lines_of_forces_follow_their_grains(self):
         ends = np.array([[[4.3, 1.0], [5.2, 1.0]], [[-0.3, 2.0], [0.5, 2.0]]])
-        network = force_network.Network(0.0, self.grains, ends, np.zeros((2, 2)), np.array([1.0, 2.0]), np.ones(2, bool))
+        network = force_network.Network(0.0, self.grains, ends, np.zeros((2, 2)), np.array([1.0, 2.0]),
+                                        np.ones(2, bool))
         seen = force_network.seen(self.run_data, network)
         np.testing.assert_allclose(seen.ends[:, :, 0], [[0.3, 1.2], [-0.3, 0.5], [3.7, 4.5]])
         self.assertEqual(seen.forces.tolist(), [1.0, 2.0, 2.0])

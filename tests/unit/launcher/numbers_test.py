@@ -252,8 +252,8 @@ class More(unittest.TestCase):
 class Benchmarks(unittest.TestCase):
     def test_laws_are_drawn_where_the_data_are(self):
         """Lube: up to a = 1.8 and from 2.8 on."""
-        for low, high, ends in ((0.5, 5.0, [(0.5, 1.8), (2.8, 5.0)]), (0.5, 1.2, [(0.5, 1.2)]), (3.0, 9.0, [(3.0, 9.0)]),
-                                (2.0, 2.5, [])):
+        for low, high, ends in ((0.5, 5.0, [(0.5, 1.8), (2.8, 5.0)]), (0.5, 1.2, [(0.5, 1.2)]),
+                                (3.0, 9.0, [(3.0, 9.0)]), (2.0, 2.5, [])):
             found = run_outs.curves_within(run_outs.LUBE, low, high)
             np.testing.assert_allclose([(a[0], a[-1]) for a, _ in found], np.reshape(ends, (-1, 2)).tolist())
         np.testing.assert_allclose(run_outs.curves_within(run_outs.LUBE, 0.5, 1.0)[0][1][[0, -1]], [0.6, 1.2])

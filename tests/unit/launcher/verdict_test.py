@@ -96,8 +96,8 @@ class Verdict(unittest.TestCase):
 
     def test_springs_are_not_said_to_be_solved(self):
         """run.json counts 0 of their windows, and so do the rows."""
-        springs = {'step': [0, 10], 'time': [0, 5], 'contact_iterations': [np.nan, 20], 'contact_residual': [np.nan, np.nan],
-                   'unconverged': [np.nan, 0]}
+        springs = {'step': [0, 10], 'time': [0, 5], 'contact_iterations': [np.nan, 20],
+                   'contact_residual': [np.nan, np.nan], 'unconverged': [np.nan, 0]}
         run = run_with({'unconverged_multiplier_windows': None}, history=springs)
         self.assertNotIn('solvers', said(run))
         self.assertNotIn('Windows in which', captions.solvers(run))
@@ -155,7 +155,8 @@ class Commands(unittest.TestCase):
                          '--from runs/x@3 --out /runs/y')
 
     def test_can_be_copied(self):
-        record = {'case_file': 'a', 'overrides': ['contact.tolerance=1e-4'], 'versions': {'turbidite': '0.1.0', 'commit': '12e45'}}
+        record = {'case_file': 'a', 'overrides': ['contact.tolerance=1e-4'],
+                  'versions': {'turbidite': '0.1.0', 'commit': '12e45'}}
         page = Page('title')
         page.table(facts.facts(run_with(record=record, case={'domain.size': '[4, 6]'})))
         self.assertIn('<code>turbidite run a --set contact.tolerance=1e-4</code>', page.text())
