@@ -26,7 +26,7 @@ import run_data
 MATERIALS = ('default', 'M2', 'steel')  # of M1, M2 and the drum
 FACETS = 128
 SPIN = 2.0      # rad/s, counter-clockwise about z
-SAMPLED = 0.05  # s
+SAMPLED = 0.05  # s, about: in equal parts of the simulated time
 
 
 def stl_of_drum(axis, radius, depth):
@@ -62,6 +62,11 @@ fix turning all move/mesh mesh drum rotate origin {axis:g} {axis:g} 0.0 axis 0.0
 ''' + liggghts.runs(round(options.seconds / options.step), max(1, round(options.seconds / SAMPLED)))
 
 
+def times_of(count, seconds):
+    """Of so many states, written at equal parts of the simulated time [s]."""
+    return [seconds * (k + 1) / count for k in range(count)]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('run', metavar='RUN')
@@ -83,7 +88,8 @@ def main():
     seconds = liggghts.run_liggghts(folder, input_of(options, run, axis), options.ranks)
     dumps = [liggghts.read_dump(folder / f'state-{k + 1}.txt') for k in range(len(seconds))]
     dem8.print_quarters([(0.0, state.centres, state.radii)] + [
-        ((k + 1) * SAMPLED, liggghts.place(dump), dump['radius']) for k, dump in enumerate(dumps)], d)
+        (time, liggghts.place(dump), dump['radius'])
+        for time, dump in zip(times_of(len(dumps), options.seconds), dumps)], d)
     print(f'{sum(seconds):.4g} s of wall time, {len(dumps[-1]["radius"])} of {len(small)} spheres in the drum')
 
 

@@ -56,6 +56,13 @@ def print_table(rows):
               f'{of_law(LUBE_HEIGHT, a)} | {angle} | {since} |')
 
 
+def curves_within(laws, low, high):
+    """(ratios, values) of each part of a law that reaches into these ratios."""
+    reaches = [(max(low, begin), min(high, end), law) for begin, end, law in laws]
+    ratios = [(np.geomspace(begin, end, 50), law) for begin, end, law in reaches if begin < end]
+    return [(a, law(a)) for a, law in ratios]
+
+
 def draw(rows, file):
     import matplotlib
     matplotlib.use('Agg')
@@ -67,9 +74,8 @@ def draw(rows, file):
                           (right, 2, (('Lube et al. 2005', '-', LUBE_HEIGHT),))):
         axes.loglog(ratios, [row[k] for _, row in rows], 'o', color='C0', label='spheres')
         for label, dash, parts in laws:
-            for n, (begin, end, law) in enumerate(parts):
-                a = np.geomspace(max(low, begin), min(high, end), 50)
-                axes.loglog(a, law(a), color='black', linewidth=1.0, linestyle=dash, label=label if n == 0 else None)
+            for n, curve in enumerate(curves_within(parts, low, high)):
+                axes.loglog(*curve, color='black', linewidth=1.0, linestyle=dash, label=label if n == 0 else None)
         axes.set_xlabel('$a = H_0/L_0$')
         axes.grid(True, which='both', alpha=0.25)
     left.set_ylabel('run-out $(L_\\infty - L_0)/L_0$')

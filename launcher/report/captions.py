@@ -110,8 +110,16 @@ def force_network(run, networks, left_out=f'those below {100 * THINNEST:g} % of 
             f'scale for all pictures: the widest stand for {scale:.3g} rho_s g {run.solid_unit()}, which '
             f'{100 * LARGEST_PART:g} % of the contacts do not exceed in the middle one of the outputs, and for more '
             f'({wider} lines); {left_out}. Contacts with an impulse: '
-            f'{counts}. Largest force: {abs(strongest.forces).max():.3g} rho_s g {run.solid_unit()} at t = '
-            f'{strongest.time:.3g} t_c.')
+            f'{counts}{held_apart(networks)}. Largest force: {abs(strongest.forces).max():.3g} rho_s g '
+            f'{run.solid_unit()} at t = {strongest.time:.3g} t_c.')
+
+
+def held_apart(networks):
+    """How many more there are that films of liquid hold apart; empty without any."""
+    if not any(network.films for network in networks):
+        return ''
+    counts = ', '.join(f'{network.films} at t = {network.time:.3g} t_c' for network in networks)
+    return f'; held apart by films of liquid, and not shown: {counts}'
 
 
 def contact_statistics(run):

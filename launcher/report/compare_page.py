@@ -14,6 +14,7 @@ import surface
 from analysis import concentration
 from differences import compared_times
 from document.page import Page
+from document.typeset import Code
 from head import facts
 from seeds import SEED
 
@@ -45,7 +46,7 @@ def make_page(comparison, folder, command):
     page.paragraph(facts.units_in_words(members[0].data), 'note')
     if comparison.remark:
         page.paragraph(comparison.remark, 'remark')
-    page.paragraph(f'Made by: {command}', 'note')
+    page.paragraph(['Made by: ', Code(command)], 'note')
     page.contents()
     add_overview(page, comparison)
     add_parameters(page, comparison)
@@ -135,7 +136,7 @@ def add_parameters(page, comparison):
     if comparison.parameters:
         case = comparison.members[0].runs[0].folder / 'case.yaml'
         units = run_data.read_units(case) if case.exists() else {}
-        page.table([[f'{key} [{units[key]}]' if key in units else key] + values
+        page.table([[f'{key} [{units[key]}]' if key in units else key] + list(map(Code, values))
                     for key, values in comparison.parameters],
                    header=['key'] + [member.name for member in comparison.members])
     else:
@@ -244,8 +245,8 @@ def add_peaks(page, comparison):
     between_others = [pair for pair in comparison.pairs if pair.first != comparison.members[0].name]
     if between_others:
         page.heading('Differences of the mean velocity')
-        page.paragraph('Of |<u>|(t) between every two but the first, over the time both cover, divided by the peak of '
-                       'the first named.')
+        page.paragraph('Of |<u>|(t) between every two but the first, over the time both cover, divided by the '
+                       'largest value of the first named in that time.')
         page.table([[pair.first, pair.second, percent(pair.largest), percent(pair.mean),
                      f'{pair.begin:g} to {pair.end:g}'] for pair in between_others], css='numbers',
                    header=['', 'and', 'largest', 'mean over time', 't/t_c'])
@@ -300,7 +301,8 @@ def add_analysis(page, members):
 def add_differences(page, comparison):
     page.heading(f'Differences from {comparison.members[0].name}')
     page.paragraph('Over the time both runs cover, at the rows of the run with fewer where the other has them too, otherwise '
-                   'interpolated linearly at the rows of both; rms in time; relative to the largest value of the first run. End values are those of each run\'s last row.')
+                   'interpolated linearly at the rows of both; rms in time; relative to the largest value of the first '
+                   'run in that time, by all of its own rows. End values are those of each run\'s last row.')
     page.table(difference_rows(comparison), css='numbers',
                header=['quantity', 'run', 'rms', 'relative', 'largest', 'relative', 'end value', 'of the first'])
 

@@ -7,6 +7,7 @@ import grain_files
 import solid
 
 MOST_NETWORKS = 4
+FILM = 4  # the bit of `status` of points that a film of liquid holds apart
 
 
 def networks(run):
@@ -27,12 +28,20 @@ def networks(run):
 
 
 def read_network(run, time, contact_file, grain_file):
-    """Forces in units of the weight of a square (in space a cube) of D with the mean density of the grains."""
+    """Forces in units of the weight of a square (in space a cube) of D with the mean density of the grains. Points that
+    a film holds apart are no contacts."""
     arrays = grain_files.read_arrays(contact_file)
     vectors = grain_files.in_space if run.in_space() else grain_files.in_plane
     ends = vectors(arrays['Points']) / run.scale('D')
     grains = grain_files.read_grains(time, grain_file)
+    touch = touching(arrays)
     return force_network.Network(
-        time / run.scale('t_c'), grains, ends.reshape(-1, 2, ends.shape[1]),
-        vectors(arrays['normal']), arrays['normal_force'] / solid.unit_force(run, grains),
-        arrays['id_a'] >= 0)
+        time / run.scale('t_c'), grains, ends.reshape(-1, 2, ends.shape[1])[touch],
+        vectors(arrays['normal'])[touch], arrays['normal_force'][touch] / solid.unit_force(run, grains),
+        arrays['id_a'][touch] >= 0, films=int(np.count_nonzero(~touch)))
+
+
+def touching(arrays):
+    """Which points no film holds apart: all in files without `status`."""
+    status = arrays.get('status', np.zeros(len(arrays['id_a'])))
+    return status.astype(int) & FILM == 0

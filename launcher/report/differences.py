@@ -9,8 +9,8 @@ SAME_TIME = 1e-9  # of the larger end of the common span
 
 @dataclass
 class Difference:
-    """Difference of a quantity q(t) from that of the first run, over their common time; `scale` is the first run's
-    max |q| there. Relative values are None if that is 0."""
+    """Difference of a quantity q(t) from that of the first run, over their common time; `scale` is the largest |q| of
+    the first run's own rows there. Relative values are None if that is 0."""
 
     begin: float  # t_c
     end: float
@@ -72,4 +72,12 @@ def difference(first, second):
     mean_square = integral_of_square(times, apart) / (span[1] - span[0])
     mean = integral_of_size(times, apart) / (span[1] - span[0])
     return Difference(*span, float(np.sqrt(mean_square)), float(np.abs(apart).max()), float(mean),
-                      float(np.abs(reference).max()))
+                      largest_size(first, common_span(first[0], second[0])))
+
+
+def largest_size(curve, span):
+    """Largest |q| of a curve (times, values) within a span, at its own rows and at the ends: rows of a coarser curve
+    may miss its peak."""
+    times, values = curve
+    inside = values[(times >= span[0]) & (times <= span[1])]
+    return float(np.abs(np.append(inside, np.interp(span, times, values))).max())

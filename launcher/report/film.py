@@ -15,6 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
+import grain_drawing
 import grain_files
 import pictures
 import run_data
@@ -47,30 +48,40 @@ class Shown:
                 yield picture
 
 
-def outermost(grains):
-    """One grain that reaches as far to the right, upwards and in depth as any of these."""
+def outermost(run, grains):
+    """One grain that reaches as far to the right, upwards and in depth as any of these are seen to."""
     if not len(grains.radii):
         return grains
-    far = (grains.positions() + grains.radii[:, None]).max(axis=0)
-    return grain_files.Grains(grains.time, far[None, :2], np.zeros(1), z=far[2:])
+    far, radius = (grains.positions() + grains.radii[:, None]).max(axis=0), 0.0
+    if not run.in_space() and grain_drawing.periods(run):
+        far[:2] = grain_drawing.reach(run, grains) * run.scale('D')
+        radius = grains.radii.min()  # its centre is inside the box: what is at a cyclic side is at the other one, too
+    return grain_files.Grains(grains.time, far[None, :2] - radius, np.array([radius]), z=far[2:])
 
 
 def frames(run, shown, working):
-    """A function that draws one picture of the film as a figure, with scales and view that serve all of them; None without
-    pictures."""
+    """(number of pictures, function that draws one of them as a figure, with scales and view that serve all of them);
+    the function is None without pictures."""
     limits, ends = [], []
     for k, picture in enumerate(shown):
         working(f'reading {k + 1} of {len(shown)}')
         limits.append(pictures.shown_limit(run, [picture]))
-        ends.append(outermost(picture.grains))
+        ends.append(outermost(run, picture.grains))
     if not limits:
-        return None
+        return 0, None
     limit = max(limits)
     if run.in_space():
         frame = scene.frame(run, ends, OBLIQUE)
-        return lambda picture: sequence.panel(run, frame, picture.grains, limit)
+        return len(limits), lambda picture: sequence.panel(run, frame, picture.grains, limit)
     size = pictures.view(run, ends)
-    return lambda picture: pictures.panel(run, picture, limit, size)
+    return len(limits), lambda picture: pictures.panel(run, picture, limit, size)
+
+
+def drawn(shown, draw, working):
+    """The images, one after the other."""
+    for k, picture in enumerate(shown):
+        working(f'picture {k + 1} of {len(shown)}')
+        yield image_of(draw(picture))
 
 
 def image_of(figure):
@@ -81,12 +92,29 @@ def image_of(figure):
     return Image.open(buffer).convert('RGB')
 
 
-def write(path, images):
-    """All or nothing."""
+class Reel:
+    """So many images one after the other as one image of many frames, as the encoder takes them. Each is drawn when the
+    encoder comes to it and let go with the next: all of them together may not fit into the memory."""
+
+    def __init__(self, images, count):
+        self.n_frames = count
+        self._images, self._image, self._drawn = images, None, 0
+
+    def seek(self, frame):
+        """Forwards. An output that can no longer be read is shown as the one before it."""
+        while self._drawn <= frame:
+            self._image, self._drawn = next(self._images, self._image), self._drawn + 1
+
+    def __getattr__(self, name):
+        return getattr(self._image, name)
+
+
+def write(path, images, count):
+    """All or nothing; `images` is an iterator over so many."""
     part = path.with_name(path.name + '.part')
-    times = [FRAME_TIME] * (len(images) - 1) + [LAST_FRAME]
-    images[0].save(part, format='WEBP', save_all=True, append_images=images[1:], duration=times, loop=0,
-                   quality=QUALITY)
+    times = [FRAME_TIME] * (count - 1) + [LAST_FRAME]
+    next(images).save(part, format='WEBP', save_all=True, append_images=[Reel(images, count - 1)], duration=times,
+                      loop=0, quality=QUALITY)
     part.replace(path)
 
 
@@ -95,17 +123,13 @@ def main(arguments):
         print('usage: film.py RUN   (a run folder of `turbidite run`)', file=sys.stderr)
         return 2
     run = run_data.load_run(arguments[1])
-    shown, working, images = Shown(run), Progress('film'), []
-    draw = frames(run, shown, working)
+    shown, working = Shown(run), Progress('film')
+    count, draw = frames(run, shown, working)
     if draw is None:
         print(f'{run.folder} has no outputs of grains to make a film of', file=sys.stderr)
         return 2
-    for k, picture in enumerate(shown):
-        working(f'picture {k + 1} of {len(shown)}')
-        images.append(image_of(draw(picture)))
-    working('encoding')
     try:
-        write(run.folder / NAME, images)
+        write(run.folder / NAME, drawn(shown, draw, working), count)
     except OSError as error:
         print(f'cannot write {run.folder / NAME}: {error.strerror or error}', file=sys.stderr)
         return 4

@@ -71,7 +71,10 @@ def largest(run, column, in_record=None):
 
 
 def unconverged_windows(run):
-    """Number of windows whose contact solve missed its tolerance, by run.json or by the rows, whichever has more; or None."""
+    """Number of windows whose contact solve missed its tolerance, by run.json or by the rows, whichever has more; or
+    None. Springs solve nothing: their 0 in run.json is no finding."""
+    if run.has_springs():
+        return None
     _, since = run.column('unconverged')
     known = [recorded(run, 'unconverged_windows'), since.sum() if len(since) else None]
     return max((int(count) for count in known if count is not None), default=None)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Pictures of the contact forces: the force network over the grains, the distribution of normal forces and the
 directions of contacts."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -33,6 +33,7 @@ class Network:
     normals: np.ndarray   # (n, d) unit
     forces: np.ndarray    # (n,) along the normal, > 0 repulsive
     between_grains: np.ndarray  # (n,) bool; others are at walls
+    films: int = 0        # points held apart by films of liquid, which are not among these
 
 
 def view(run, networks):
@@ -67,9 +68,16 @@ def panel(run, network, scale, size):
 
 
 def draw(run, axes, network, scale, size):
-    grain_drawing.draw(axes, network.grains, run.scale('D'), alpha=0.45)
-    axes.add_collection(lines(network, scale, widest_line(axes, size)))
+    grain_drawing.draw(axes, grain_drawing.with_images(run, network.grains), run.scale('D'), alpha=0.45)
+    axes.add_collection(lines(seen(run, network), scale, widest_line(axes, size)))
     pictures.decorate(run, axes, size, network.grains.time)
+
+
+def seen(run, network):
+    """The network with the images of its lines."""
+    chosen, ends = grain_drawing.lines_with_images(run, network.ends)
+    return replace(network, ends=ends, normals=network.normals[chosen], forces=network.forces[chosen],
+                   between_grains=network.between_grains[chosen])
 
 
 def add_widths(axes, scale, unit, widest=WIDEST, **how):

@@ -114,11 +114,10 @@ def view(run, all_grains):
 def reached(run, all_grains, margin):
     """Width and height of the part of the domain up to the farthest grains and `margin` beyond [D]."""
     width, height = run.size()
-    reach = [((g.centres + g.radii[:, None]) / run.scale('D')).max(axis=0)
-             for g in all_grains if g is not None and len(g.radii)]
-    if not reach:
+    reaches = [grain_drawing.reach(run, grains) for grains in all_grains if grains is not None and len(grains.radii)]
+    if not reaches:
         return width, height
-    right, top = np.ceil(np.max(reach, axis=0) + margin)
+    right, top = np.ceil(np.max(reaches, axis=0) + margin)
     return min(width, right), min(height, top)
 
 
@@ -206,7 +205,7 @@ def grains_in_words(run, grains, time):
     when = f't = {time / run.scale("t_c"):.3g} t_c'
     if grains is None or not len(grains.radii):
         return f'No grains at {when}'
-    right, top = ((grains.centres + grains.radii[:, None]) / run.scale('D')).max(axis=0)
+    right, top = grain_drawing.reach(run, grains)
     return f'{len(grains.radii)} grains at {when}, up to x = {right:.3g} D and y = {top:.3g} D'
 
 
@@ -257,9 +256,10 @@ def _draw(run, picture, limit, size, axes):
                             cmap='RdBu_r', extent=(0, width, 0, height), vmin=-limit, vmax=limit,
                             interpolation='bilinear')
     if picture.grains is not None:
-        speeds = None if run.is_wet() else picture.grains.speeds()
+        grains = grain_drawing.with_images(run, picture.grains)
+        speeds = None if run.is_wet() else grains.speeds()
         coloured = grain_drawing.draw(
-            axes, picture.grains, run.scale('D'), colours=SPEED_COLOURS, limits=(0.0, limit),
+            axes, grains, run.scale('D'), colours=SPEED_COLOURS, limits=(0.0, limit),
             values=None if speeds is None else speeds / run.scale('u_c'))
         image = image or coloured
     decorate(run, axes, size, picture.time)

@@ -120,7 +120,7 @@ class RunData:
             return ''
         words = ['turbidite', 'run', self.record['case_file']]
         words += [word for override in self.record.get('overrides', []) for word in ('--set', override)]
-        words += ['--from', self.record['from']] if self.record.get('from') else []
+        words += ['--from', self.began_from()] if self.began_from() else []
         words += ['--out', self.record['out']] if self.record.get('out') else []
         return shlex.join(words)
 

@@ -26,6 +26,7 @@ import run_data
 import seeds
 from measured import DRAWN, MEASURED, table
 from document.page import Page, write_whole
+from document.typeset import Code
 from head import facts
 from paper import add as paper
 from paper.selection import is_done
@@ -77,7 +78,7 @@ def as_csv(runs):
 def make_page(title, runs, command=''):
     page = Page(f'Study {title}')
     page.paragraph(progress(runs), 'verdict ' + ('holds' if all(run.entry['status'] == 'done' for run in runs) else 'doubt'))
-    failed = [f'{run.entry["folder"]}: {run.entry["status"]}. {run.entry["error"]}' for run in runs
+    failed = [[Code(run.entry['folder']), f': {run.entry["status"]}. {run.entry["error"]}'] for run in runs
               if run.entry['status'] not in ('done', 'missing') or run.entry['error']]
     if failed:
         page.bullets(failed, 'bad')
@@ -85,7 +86,7 @@ def make_page(title, runs, command=''):
     page.contents()
     for part in dict.fromkeys(run.entry['part'] for run in runs):
         add_part(page, part, [run for run in runs if run.entry['part'] == part])
-    remarks = [f'{run.entry["folder"]}: {remark}' for run in runs for remark in run.data.remarks]
+    remarks = [[Code(run.entry['folder']), f': {remark}'] for run in runs for remark in run.data.remarks]
     if remarks:
         page.heading('Remarks')
         page.bullets(remarks, 'remark')
@@ -106,7 +107,7 @@ def add_notes(page, runs, command):
     if len(words) == 1:
         page.paragraph(words[0], 'note')
     if command:
-        page.paragraph(f'Made by: {command}', 'note')
+        page.paragraph(['Made by: ', Code(command)], 'note')
 
 
 def add_part(page, part, runs):

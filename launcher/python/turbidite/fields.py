@@ -84,7 +84,7 @@ def middles(edges):
 def slices(data):
     """[Series of Field, ...] of the planes, in the order of `output.slices`; NotThere without any."""
     require_fluid(data)
-    files = reader('space.slices')
+    files = reader('space.slice_files')
     planes = files.series(data)
     if not planes:
         raise NotThere(f'{data.folder} has no slices: cases in space write those of output.slices')
@@ -92,7 +92,7 @@ def slices(data):
 
 
 def plane_series(data, entries):
-    files, of = reader('space.slices'), units.of_fields(data)
+    files, of = reader('space.slice_files'), units.of_fields(data)
 
     def read(number):
         one = files.read(*entries[number])

@@ -54,7 +54,8 @@ def peaks(member):
 
 @dataclass
 class Pair:
-    """Difference of |<u>|(t) of two members over their common time, divided by the peak of the first."""
+    """Difference of |<u>|(t) of two members over their common time, divided by the largest value of the first
+    there."""
 
     first: str
     second: str

@@ -5,7 +5,7 @@ Topin et al. 2011, section 3.3: the straight line that fits the acceleration pha
 axis at t_relax. The acceleration phase is where |<u>| rises most steeply over one t_c. Where that is at the end of the
 run, the acceleration phase may still come: a steeper line meets the axis later, so that t_relax has a lower bound only.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -22,17 +22,29 @@ STEEPER = 1.0 + 1e-9          # a slope that rounding alone makes larger is the 
 class Relaxation:
     """u = slope (t - time) from `begin` to `end`; times in t_c, velocities in u_c."""
 
-    time: float    # t_relax
-    lowest: float  # of fits of all lengths that overlap this one
-    highest: float
+    time: float      # t_relax
     slope: float
     begin: float
     end: float
     bound: bool = False  # the fit ends with the run: t_relax is later than `time`
+    others: list = field(default_factory=list)  # fits of other lengths, over other rows, that overlap this one
+
+    @property
+    def times(self):
+        """Smallest and largest t_relax of fits of all lengths; None where no fit has other rows, which tells nothing of
+        how much the length matters."""
+        times = [self.time, *(fit.time for fit in self.others)]
+        return (min(times), max(times)) if self.others else None
+
+    @property
+    def lengths(self):
+        """Shortest and longest of the fits [t_c]."""
+        found = [fit.end - fit.begin for fit in (self, *self.others)]
+        return min(found), max(found)
 
     @property
     def spread(self):
-        return self.highest - self.lowest
+        return None if self.times is None else self.times[1] - self.times[0]
 
     @property
     def text(self):
@@ -53,8 +65,8 @@ def relaxation(run):
     if found is None:
         return None
     others = [steepest(*rising, length, near=found) for length in OTHER_FITS]
-    times = [fit.time for fit in (found, *others) if fit is not None]
-    found.lowest, found.highest = min(times), max(times)
+    # Where rows are far apart, fits of several lengths are one.
+    found.others = [fit for fit in others if fit is not None and (fit.begin, fit.end) != (found.begin, found.end)]
     # The last row may come sooner than those before it: less than a row behind the fit, nothing can be fitted.
     found.bound = found.end > time[-1] - (1.0 - 1e-9) * float(np.diff(time[-3:]).max())
     return None if found.bound and found.time <= 0.0 else found  # later than the start tells nothing
@@ -73,8 +85,7 @@ def steepest(time, velocity, length, near=None):
             continue
         slope, level = np.polyfit(time[part], velocity[part], 1)
         if slope > 0.0 and (best is None or slope > STEEPER * best.slope):
-            crossing = float(-level / slope)
-            best = Relaxation(crossing, crossing, crossing, float(slope), float(time[first]), float(time[part][-1]))
+            best = Relaxation(float(-level / slope), float(slope), float(time[first]), float(time[part][-1]))
     return best
 
 
@@ -108,5 +119,11 @@ def caption(run):
         return (f'Relaxation time {found.text} t_c: the grains accelerate most at the end of the run (t = {found.begin:.2f} '
                 f'to {found.end:.2f} t_c), so that the straight fit there bounds it from below.')
     return (f'Relaxation time {found.text} t_c: where the steepest straight fit (t = {found.begin:.2f} to '
-            f'{found.end:.2f} t_c) meets the time axis; {found.lowest:.2f} to {found.highest:.2f} t_c with fits over '
-            f'{min(OTHER_FITS):g} to {max(OTHER_FITS):g} t_c.')
+            f'{found.end:.2f} t_c) meets the time axis; {bounds_in_words(found)}.')
+
+
+def bounds_in_words(found):
+    if found.times is None:
+        return 'the rows are too far apart for fits of other lengths, which would bound it'
+    (lowest, highest), (shortest, longest) = found.times, found.lengths
+    return f'{lowest:.2f} to {highest:.2f} t_c with fits over {shortest:.2g} to {longest:.2g} t_c'

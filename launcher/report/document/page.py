@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A self-contained HTML page of figures and tables, written completely or not at all."""
+"""A self-contained HTML page of figures and tables, written completely or not at all. Texts are those of typeset:
+symbols are set, and Code stays as it is."""
 import base64
 import html
 import io
@@ -108,7 +109,8 @@ class Page:
 
     def table(self, rows, header=None, css=''):
         line = lambda tag, cells: '<tr>' + ''.join(
-            f'<{tag}>{typeset(str(cell))}</{tag}>' for cell in cells) + '</tr>'
+            f'<{tag}>{typeset(cell if isinstance(cell, (str, list)) else str(cell))}</{tag}>'
+            for cell in cells) + '</tr>'
         head = line('th', header) if header else ''
         body = ''.join(line('td', row) for row in rows)
         self.parts.append(f'<div class="wide"><table class="{css}">{head}{body}</table></div>')

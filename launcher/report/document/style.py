@@ -30,7 +30,7 @@ figure { margin: 0; } figcaption { color: var(--faint); max-width: 75ch; }
 .panels img { width: 100%; }
 .legend { position: sticky; top: 0; background: var(--paper); padding: .3em 0; margin: 0; }
 .legend span { white-space: nowrap; margin-right: 1.2em; } .legend svg { vertical-align: middle; }
-sub, sup { line-height: 0; }
+sub, sup { line-height: 0; } code { overflow-wrap: anywhere; font-size: .92em; }
 .verdict { font-size: 1.1em; font-weight: 600; padding: .5em .8em; border-left: 5px solid; }
 .verdict.holds { border-color: var(--good); } .verdict.doubt { border-color: var(--doubt); }
 .verdict.bad { border-color: var(--bad); }

@@ -20,8 +20,17 @@ def plain(mathtext):
     return ' '.join(mathtext.split()).replace('⟨ ', '⟨').replace(' ⟩', '⟩')
 
 
+class Code(str):
+    """A command, a fingerprint or a path: set as it is, to be copied."""
+
+
 def typeset(text):
-    """Escaped, and typeset; names of keys, columns and files have points or longer words and stay as they are."""
+    """Escaped, and typeset; names of keys, columns and files have points or longer words and stay as they are. Also of
+    a list of texts, parts of which may be Code."""
+    if isinstance(text, list):
+        return ''.join(map(typeset, text))
+    if isinstance(text, Code):
+        return f'<code>{html.escape(text, quote=False)}</code>' if text else ''
     text = MEAN.sub(r'⟨\1⟩', html.escape(text, quote=False))
     text = SUBSCRIPTED.sub(lambda m: f'{GREEK.get(m.group(1), m.group(1))}<sub>{m.group(2)}</sub>', text)
     text = POWER.sub(r'\1<sup>\2</sup>', text)

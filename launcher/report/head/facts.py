@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What was played: the case and the programs, with units."""
+from collections import Counter
+
 import numpy as np
 
 import grain_files
 import solid
+from analysis.once import or_remark
+from document.typeset import Code
 
 SIDES = {False: ('left', 'right', 'bottom', 'top'), True: ('left', 'right', 'bottom', 'top', 'front', 'back')}
 
@@ -15,10 +19,10 @@ def coupling(case):
 
 
 def version_of(record):
-    """'0.1.0', with the commit where it was recorded."""
+    """['0.1.0'], with the commit where it was recorded; as parts of a text."""
     versions = record.get('versions') or {}
-    commit = f' (commit {versions["commit"]})' if versions.get('commit') else ''
-    return versions.get('turbidite', 'of unknown version') + commit
+    commit = [' (commit ', Code(versions['commit']), ')'] if versions.get('commit') else []
+    return [versions.get('turbidite', 'of unknown version'), *commit]
 
 
 def by_box(record):
@@ -26,15 +30,14 @@ def by_box(record):
 
 
 def facts(run):
-    """(name, value) pairs of the case, with units."""
+    """(name, value) pairs of the case, with units; a value may be a list of parts."""
     record, case = run.record, run.case
     rows = [
-        ('made by', f'turbidite {version_of(record)}{date_of(record)}'),
-        *([('command', run.command())] if run.command() else []),
+        ('made by', ['turbidite ', *version_of(record), date_of(record)]),
+        *([('command', Code(run.command()))] if run.command() else []),
         ('domain', f'{case.get("domain.size", "unknown")} D; ' + ', '.join(
             f'{side} {case[f"domain.{side}"]}' for side in SIDES[run.in_space()] if f'domain.{side}' in case)),
-        ('grains', f'{record.get("grains", "?")} {case.get("grains.shape")}s, {density_of(run)}, {friction_of(case)}, '
-                   f'by {case.get("grains.adapter")}'),
+        ('grains', f'{kinds_of(run)}, {density_of(run)}, {friction_of(case)}, by {case.get("grains.adapter")}'),
         ('fluid', f'Re = {record.get("reynolds", 0):.4g}, {case.get("fluid.cells_per_diameter")} '
                   f'cells per D{by_box(record)}' if run.is_wet() else 'none'),
         ('scales', f'{case.get("scales.kind")}: D = {run.scale("D"):.4g}, u_c = '
@@ -47,6 +50,23 @@ def facts(run):
     programs = [f'{r.get("role")} {r.get("rank")}: {r.get("adapter")} ({r.get("host_code")}) on '
                 f'{r.get("host")}' for r in record.get('ranks', [])]
     return rows + [('programs', '; '.join(programs))] if programs else rows
+
+
+def kinds_of(run):
+    """'200 triangles, 100 discs': those of the first output, since files of grains may have other shapes than the case;
+    without one, of the case."""
+    first = grain_files.quiet_series(run)[:1]
+    counted = or_remark(run, 'The first output', lambda: count_kinds(run, first[0][1])) if first else None
+    if not counted:
+        return f'{run.record.get("grains", "?")} {run.case.get("grains.shape")}s'
+    return ', '.join(f'{number} {kind}{"" if number == 1 else "s"}' for kind, number in counted.most_common())
+
+
+def count_kinds(run, path):
+    """How many grains of each kind are in a file; none where neither file nor run.json has them."""
+    shapes = run.record.get('shapes') or []
+    numbers = grain_files.read_arrays(path).get('shape', ()) if shapes else ()
+    return Counter(shapes[int(number)]['kind'] for number in numbers)
 
 
 def density_of(run):

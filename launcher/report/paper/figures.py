@@ -128,12 +128,18 @@ def draw_waits(axes, k, reynolds, found):
     known, bounds = ([(phi, one) for phi, one in found if one.bound == bound] for bound in (False, True))
     if known:
         axes.errorbar([phi for phi, _ in known], [one.time for _, one in known],
-                      yerr=np.array([(one.time - one.lowest, one.highest - one.time) for _, one in known]).T, linestyle='',
+                      yerr=np.array([bar(one) for _, one in known]).T, linestyle='',
                       marker=curves.MARKERS[k], capsize=3, color=f'C{k}', label=rf'$Re_c = {reynolds}$')
     if bounds:
         aside = 0.0006 * (k - 1)  # those of several Re stand at the end of the runs
         axes.plot([phi + aside for phi, _ in bounds], [one.time for _, one in bounds], linestyle='',
                   marker=r'$\uparrow$', markersize=9, color=f'C{k}', label=rf'$Re_c = {reynolds}$, longer')
+
+
+def bar(one):
+    """How far the bounds of a waiting time are below and above it; nan, which is not drawn, without bounds."""
+    low, high = one.bounds or (np.nan, np.nan)
+    return one.time - low, high - one.time
 
 
 def draw_estimate(axes, lattices):

@@ -17,8 +17,7 @@ class Wait:
     """t_relax [t_c], or, where it is a bound, what it exceeds."""
 
     time: float
-    lowest: float
-    highest: float
+    bounds: tuple  # by fits of other lengths; None without any
     bound: bool
     slides: bool  # False: it has not slid at all
 
@@ -40,9 +39,8 @@ class Wait:
 def wait(run):
     found = relaxation.relaxation(run)
     if found is not None:
-        return Wait(found.time, found.lowest, found.highest, found.bound, True)
-    end = float(run.column(peaks.COLUMN)[0][-1])
-    return Wait(end, end, end, True, False)
+        return Wait(found.time, found.times, found.bound, True)
+    return Wait(float(run.column(peaks.COLUMN)[0][-1]), None, True, False)
 
 
 def waits(runs, reynolds, compacity):

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Planes of the fluid in space (output.slices): the files in fluid/slices, and their pictures: the vertical velocity in
-colour as in the plane (red up, blue down, white at rest), the pressure, and the spheres where the plane cuts them."""
-from dataclasses import dataclass
-
+"""Pictures of planes of the fluid in space (slice_files.py): the vertical velocity in colour as in the plane (red up,
+blue down, white at rest), the pressure, and the spheres where the plane cuts them."""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -12,9 +10,9 @@ import grain_files
 import pictures
 from analysis.snapshots import evenly
 from document.typeset import plain
-from space import free_surface, rectilinear
+from space import free_surface
+from space.slice_files import AXES, read, series
 
-AXES = 'xyz'
 PANEL_WIDTH = 420
 MOST_TIMES = 6
 PRESSURES = 2
@@ -23,47 +21,6 @@ TALLEST = 7.0
 MARGIN = 0.55          # of the labels
 COLOURED_PART = pictures.COLOURED_PART
 WALLS = ListedColormap(['#8a8a8a'])
-
-
-@dataclass
-class Slice:
-    """One plane at one time, in the units of the run. Arrays are (rows, columns) of a picture: `up` by `across`."""
-
-    time: float
-    axis: int               # that the plane is normal to
-    place: float            # along it
-    across: int             # axis to the right
-    up: int                 # axis upwards
-    edges: list             # of the cells, [across, up]
-    pressure: np.ndarray    # over rho_f
-    velocity: np.ndarray    # (rows, columns, 3)
-    covered: np.ndarray     # share that spheres and walls cover
-
-    def name(self, run):
-        return f'{AXES[self.axis]} = {self.place / run.scale("D"):.4g} D'
-
-
-def series(run):
-    """[[(time, path), ...] of each plane], in the order of output.slices; empty without any."""
-    planes = {}
-    for time, part, path in rectilinear.entries(run, run.folder / 'fluid' / 'slices' / 'slices.pvd'):
-        planes.setdefault(part, []).append((time, path))
-    return [planes[part] for part in sorted(planes)]
-
-
-def read(time, path):
-    """A file of the fluid program (rectilinear.py); ValueError if it is damaged."""
-    arrays = rectilinear.arrays(path)
-    edges = [arrays[name] for name in AXES]
-    axis = int(np.argmin([len(along) for along in edges]))
-    across, up = [other for other in range(3) if other != axis]  # the first runs fastest
-    shape = len(edges[up]) - 1, len(edges[across]) - 1
-    pressure, covered = (arrays[name].reshape(shape) for name in ('p', 'covered'))
-    velocity = arrays['U'].reshape(*shape, 3)
-    if axis == 0:  # y upwards, z to the right
-        across, up = up, across
-        pressure, covered, velocity = pressure.T, covered.T, velocity.transpose(1, 0, 2)
-    return Slice(time, axis, float(edges[axis][0]), across, up, [edges[across], edges[up]], pressure, velocity, covered)
 
 
 def cut_grains(run, one, grains, larger=0.0):
@@ -122,20 +79,35 @@ def load(run, time, path):
 
 def velocity_limit(run, shown):
     """Symmetric limit of the colours [u_c]."""
-    return float(max([0.05] + [np.quantile(np.abs(one.velocity[..., 1]), COLOURED_PART) / run.scale('u_c')
+    return float(max([0.05] + [quantile(np.abs(one.velocity[..., 1]), areas(one), COLOURED_PART) / run.scale('u_c')
                                for one, _ in shown]))
+
+
+def areas(one):
+    """Of the cells: rows may be stretched."""
+    across, up = (np.diff(edges) for edges in one.edges)
+    return up[:, None] * across
+
+
+def quantile(values, weights, share):
+    """What this share of the weight does not exceed; np.quantile where weights are equal."""
+    order = np.argsort(values, axis=None)
+    sorted_values, sorted_weights = values.ravel()[order], weights.ravel()[order]
+    middles = np.cumsum(sorted_weights) - 0.5 * sorted_weights
+    return float(np.interp(middles[0] + share * (middles[-1] - middles[0]), middles, sorted_values))
 
 
 def level_free(one):
     """The pressure without its mean outside spheres: no side of the box need fix a level."""
     free = one.covered < 0.5
-    return one.pressure - (one.pressure[free].mean() if free.any() else 0.0)
+    return one.pressure - (np.average(one.pressure[free], weights=areas(one)[free]) if free.any() else 0.0)
 
 
 def pressure_limit(run, shown):
     """Symmetric limit of the colours [rho_f u_c^2]."""
-    return float(max([1e-3] + [np.quantile(np.abs(level_free(one)[one.covered < 0.5]), 0.995) / run.scale('u_c')**2
-                               for one, _ in shown if (one.covered < 0.5).any()]))
+    free = [(one, one.covered < 0.5) for one, _ in shown]
+    return float(max([1e-3] + [quantile(np.abs(level_free(one)[there]), areas(one)[there], 0.995) / run.scale('u_c')**2
+                               for one, there in free if there.any()]))
 
 
 def velocity_panel(run, one, grains, limit):

@@ -51,6 +51,13 @@ class Differences(unittest.TestCase):
             apart = difference((first, first**2), (second, second**2))
             self.assertAlmostEqual(apart.largest, (0.5 - 1.0 / 3.0) * (2.0 / 3.0 - 0.5))
 
+    def test_a_peak_between_the_rows_of_the_coarser_one_is_the_scale(self):
+        """The first has its peak of 5 at t = 1.5, where the other has no row, and 8 after their common time."""
+        first = np.array([0.0, 1.0, 1.5, 2.0, 5.0]), np.array([0.0, 1.0, 5.0, 2.0, 8.0])
+        self.assertEqual(difference(first, (np.arange(3.0), np.zeros(3))).scale, 5.0)
+        # At the end of the common time it has 4 by interpolation.
+        self.assertAlmostEqual(difference(first, (np.array([1.7, 3.0]), np.zeros(2))).scale, 4.0)
+
     def test_two_curves_that_share_one_row_are_compared_between_it_and_the_end(self):
         early, late = (np.array([0.0, 2.0]), np.array([0.0, 2.0])), (np.array([1.0, 5.0]), np.array([1.5, 5.5]))
         apart = difference(early, late)
@@ -139,7 +146,8 @@ class Compare(RunFolderTest):
         page = (self.folder / 'page.html').read_text()
         self.assertIn('<a href="two/report.html">two</a>', page)
         self.assertNotIn('one/report.html', page)
-        self.assertIn(f'Made by: turbidite compare {self.folder}/one {self.folder}/two --out {self.folder}/page.html', page)
+        self.assertIn(f'Made by: <code>turbidite compare {self.folder}/one {self.folder}/two '
+                      f'--out {self.folder}/page.html</code>', page)
 
     def test_only_the_common_time_counts(self):
         self.write_run('one', 1.0)
@@ -170,6 +178,13 @@ class Compare(RunFolderTest):
             {'from_window': 0}, {'from_window': 20, 'overrides': ['contact.friction=0.5']}]}))
         self.assertEqual(self.run_it('one', 'two'), (0, ''))
         self.assertEqual(self.result()['parameters'], {'resumed': ['', 'from window 20 on with contact.friction=0.5']})
+
+    def test_values_of_the_case_can_be_copied(self):
+        self.write_run('one', 1.0, case=CASE + 'contact:\n  tolerance: 1e-8\n')
+        self.write_run('two', 1.0, case=CASE + 'contact:\n  tolerance: 1e-4\n')
+        self.assertEqual(self.run_it('one', 'two'), (0, ''))
+        self.assertIn('<td>contact.tolerance</td><td><code>1e-8</code></td><td><code>1e-4</code></td>',
+                      (self.folder / 'page.html').read_text())
 
     def test_rest_of_a_group_is_that_of_its_runs(self):
         speeds = {'seed-1': (0, 1, 0, 0), 'seed-2': (0, 1, 1, 0), 'seed-3': (0, 1, 1, 1)}
@@ -222,8 +237,8 @@ class Compare(RunFolderTest):
     def write_seed(self, name, seed, scale):
         """|<u>| rises to `scale` at 2 t_c and falls to 0 at 4 t_c."""
         self.write_run(name, scale, case=CASE + f'random:\n  seed: {seed}\n')
-        self.write(f'{name}/history.csv', 'step,time,mean_velocity_norm,contact_iterations\n'
-                   + ''.join(f'{10 * t},{t},{scale * (1 - abs(t - 2) / 2)},{"" if t == 0 else 7}\n'
+        self.write(f'{name}/history.csv', 'step,time,mean_velocity_norm,contact_iterations,contact_residual\n'
+                   + ''.join(f'{10 * t},{t},{scale * (1 - abs(t - 2) / 2)},{"," if t == 0 else "7,1e-9"}\n'
                              for t in range(5)))
         self.write(f'{name}/run.json', json.dumps(
             {'status': 'done', 'maxima': {'penetration': 1e-4 * scale, 'unconverged_windows': seed}}))

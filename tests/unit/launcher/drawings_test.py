@@ -2,6 +2,7 @@
 """What is drawn lies where it is and is as large as it is; means, bars and differences; the colour of a verdict."""
 import json
 import unittest
+from pathlib import Path
 from types import SimpleNamespace
 
 import matplotlib
@@ -14,6 +15,8 @@ from made_up_run import CASE, VTP, RunFolderTest
 import compare
 import compare_page
 import curves
+import film
+import force_network
 import grain_drawing
 import grain_files
 import pictures
@@ -51,6 +54,56 @@ class Discs(unittest.TestCase):
         np.testing.assert_allclose((columns.mean() / 100, rows.mean() / 100), (1.0, 1.0), atol=0.02)
         self.assertEqual(image.get_array().tolist(), [0.0, 1.0])
         plt.close(figure)
+
+
+class CyclicSides(unittest.TestCase):
+    """A box of 4 x 6 D, D = 2, cyclic in x: a disc that reaches through the left side, one that is three periods on,
+    and a triangle one period before, which reaches through the right side."""
+
+    def setUp(self):
+        self.run_data = run_data.RunData(Path('nowhere'), {'D': 2.0}, {'domain.size': '[4, 6]', 'domain.left': 'cyclic',
+                                                           'fluid.enabled': 'false'})
+        corners = np.array([[-0.5, 2.0], [0.5, 2.0], [-0.5, 3.0]])
+        self.grains = grain_files.Grains(0.0, np.array([[0.2, 2.0], [26.0, 4.0], [-0.5, 2.5]]),
+                                         np.array([1.0, 1.0, 0.9]), outlines={2: corners},
+                                         velocities=np.array([[1.0, 0], [2.0, 0], [3.0, 0]]))
+
+    def test_grains_are_drawn_inside_with_their_images(self):
+        seen = grain_drawing.with_images(self.run_data, self.grains)
+        np.testing.assert_allclose(seen.centres[:, 0], [0.2, 2.0, 7.5, 8.2, -0.5])
+        self.assertEqual(seen.speeds().tolist(), [1.0, 2.0, 3.0, 1.0, 3.0])
+        np.testing.assert_allclose(seen.outlines[2][:, 0], [7.5, 8.5, 7.5])
+        np.testing.assert_allclose(seen.outlines[4][:, 0], [-0.5, 0.5, -0.5])
+        figure = pictures.panel(self.run_data, pictures.Picture(0.0, self.grains, None), 1.0, (4, 6))
+        discs, polygons = figure.axes[0].collections
+        np.testing.assert_allclose(discs.get_offsets()[:, 0], [0.1, 1.0, 4.1])
+        self.assertEqual((discs.get_array().tolist(), polygons.get_array().tolist()), ([1.0, 2.0, 1.0], [3.0, 3.0]))
+        plt.close(figure)
+
+    def test_what_is_beyond_a_side_widens_no_picture(self):
+        self.assertEqual(grain_drawing.reach(self.run_data, self.grains).tolist(), [4.0, 2.5])
+        self.assertEqual(pictures.view(self.run_data, [self.grains]), (4, 4))
+        self.assertIn('3 grains at t = 0 t_c, up to x = 4 D', pictures.in_words(
+            self.run_data, pictures.Picture(0.0, self.grains, None)))
+        self.assertEqual(pictures.view(self.run_data, [film.outermost(self.run_data, self.grains)]), (4, 4))
+        inside = grain_files.Grains(0.0, np.array([[26.0, 4.0]]), np.array([0.4]))
+        self.assertEqual(pictures.view(self.run_data, [inside]), (3, 4))
+        self.assertEqual(pictures.view(self.run_data, [film.outermost(self.run_data, inside)]), (3, 4))
+
+    def test_corners_of_a_box_that_is_cyclic_in_both_directions(self):
+        self.run_data.case['domain.bottom'] = 'cyclic'
+        one = grain_files.Grains(0.0, np.array([[8.1, -0.1]]), np.array([0.5]))
+        seen = grain_drawing.with_images(self.run_data, one).centres
+        self.assertEqual({tuple(np.round(place, 9)) for place in seen},
+                         {(0.1, 11.9), (8.1, 11.9), (0.1, -0.1), (8.1, -0.1)})
+
+    def test_lines_of_forces_follow_their_grains(self):
+        ends = np.array([[[4.3, 1.0], [5.2, 1.0]], [[-0.3, 2.0], [0.5, 2.0]]])
+        network = force_network.Network(0.0, self.grains, ends, np.zeros((2, 2)), np.array([1.0, 2.0]),
+                                        np.ones(2, bool))
+        seen = force_network.seen(self.run_data, network)
+        np.testing.assert_allclose(seen.ends[:, :, 0], [[0.3, 1.2], [-0.3, 0.5], [3.7, 4.5]])
+        self.assertEqual(seen.forces.tolist(), [1.0, 2.0, 2.0])
 
 
 class Comparisons(RunFolderTest):

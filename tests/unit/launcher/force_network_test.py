@@ -9,6 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from made_up_run import CASE, RunFolderTest
 
+import captions
 import contact_files
 import force_network
 import report
@@ -128,6 +129,20 @@ class ContactSeries(RunFolderTest):
         self.assertEqual(network.forces.tolist(), [2.0, 4.0])  # over rho_s g D^2 = 1.5
         self.assertEqual(network.between_grains.tolist(), [True, False])
         self.assertEqual(network.normals.tolist(), [[1, 0], [0, 1]])
+
+    def test_films_of_liquid_are_no_contacts(self):
+        """Bit 4 of `status`, whatever the others are."""
+        for status, forces, films in (('1 4', [2.0], 1), ('6 0', [4.0], 1), ('3 1', [2.0, 4.0], 0)):
+            self.write('grains/contacts_1.vtp', CONTACTS.format(y=3).replace(
+                '</CellData>', f'<DataArray Name="status" format="ascii">{status}</DataArray></CellData>'))
+            run = run_data.load_run(self.folder)
+            network, = contact_files.networks(run)
+            self.assertEqual((network.forces.tolist(), network.films), (forces, films))
+            for values in (network.ends, network.normals, network.between_grains):
+                self.assertEqual(len(values), len(forces))
+            caption = captions.force_network(run, [network])
+            self.assertIn(f'Contacts with an impulse: {len(forces)} at t = 1 t_c', caption)
+            self.assertEqual('; held apart by films of liquid, and not shown: 1 at t = 1 t_c.' in caption, films == 1)
 
     def test_the_report_shows_them(self):
         self.assertEqual(report.main(['report.py', str(self.folder)]), 0)

@@ -2,7 +2,9 @@
 """Numbers of a report by hand: the same run in SI and in units of one, columns by name, pressures of fields, works."""
 import json
 import shutil
+import sys
 import unittest
+from pathlib import Path
 
 import analysis_test
 import numpy as np
@@ -23,6 +25,10 @@ from analysis import (concentration, deposit, dilatancy, energy, packing_triangl
 from head import key_numbers
 from measured import MEASURED
 from space import walls
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / 'bench'))
+import liggghts_drum
+import run_outs
 
 SI = {'D': 0.01, 'u_c': 0.5, 't_c': 0.02, 'g': 9.81, 'rho': 1000.0, 'nu': 5e-4}
 ONE = {'D': 1.0, 'u_c': 1.0, 't_c': 1.0, 'g': 9.81 * 0.01 / 0.5**2, 'rho': 1.0, 'nu': 0.1}
@@ -241,6 +247,19 @@ class More(unittest.TestCase):
         data = run(time=[0, 1, 2], step=[0, 10, 40], wall_step=[np.nan, 0.1, 0.3])
         self.assertAlmostEqual(findings.wall_seconds(data)[0], 10.0)
         self.assertAlmostEqual(findings.wall_seconds(data)[1], 0.25)
+
+
+class Benchmarks(unittest.TestCase):
+    def test_laws_are_drawn_where_the_data_are(self):
+        """Lube: up to a = 1.8 and from 2.8 on."""
+        for low, high, ends in ((0.5, 5.0, [(0.5, 1.8), (2.8, 5.0)]), (0.5, 1.2, [(0.5, 1.2)]),
+                                (3.0, 9.0, [(3.0, 9.0)]), (2.0, 2.5, [])):
+            found = run_outs.curves_within(run_outs.LUBE, low, high)
+            np.testing.assert_allclose([(a[0], a[-1]) for a, _ in found], np.reshape(ends, (-1, 2)).tolist())
+        np.testing.assert_allclose(run_outs.curves_within(run_outs.LUBE, 0.5, 1.0)[0][1][[0, -1]], [0.6, 1.2])
+
+    def test_states_of_the_drum_are_at_equal_parts_of_its_time(self):
+        np.testing.assert_allclose(liggghts_drum.times_of(3, 0.16), [0.16 / 3, 0.32 / 3, 0.16])
 
 
 if __name__ == '__main__':

@@ -14,7 +14,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 
 from document.page import Page
-from document.typeset import typeset
+from document.typeset import Code, typeset
 from document.working import Progress
 
 
@@ -31,6 +31,17 @@ class Typeset(unittest.TestCase):
         for name in ('mean_velocity_x', 'u_c.txt', 'pictures/rho_s.png', 'case1e5b', 'contact.tolerance', 'penetration-1e-9',
                      'part/penetration-1e-9-friction-0.3'):
             self.assertEqual(typeset(name), name)
+
+
+    def test_code_is_set_as_it_is(self):
+        for text in ('turbidite run a --set contact.tolerance=1e-4', '12e45678', 'runs/x_0 D^2'):
+            self.assertEqual(typeset(Code(text)), f'<code>{text}</code>')
+        self.assertEqual(typeset(['Made by: ', Code('a < b'), ', 1 u_c']),
+                         'Made by: <code>a &lt; b</code>, 1 u<sub>c</sub>')
+        page = Page('title')
+        page.table([['x_0', Code('x_0'), ['x ', Code('1e-4')], 3]])
+        self.assertIn('<td>x<sub>0</sub></td><td><code>x_0</code></td><td>x <code>1e-4</code></td><td>3</td>',
+                      page.text())
 
 
 class Pages(unittest.TestCase):

@@ -281,7 +281,10 @@ class Waiting(unittest.TestCase):
         self.assertTrue(found.bound)
         self.assertAlmostEqual(found.time, 19.5 - 19.5 / 8.0, delta=0.02)  # the tangent in the middle of the last t_c
         self.assertIn('φ = 0.87: > 17, ', text('dense_waits', runs))
-        self.assertEqual(waiting.Wait(17.96, 17, 18, True, True).text, '> 17.9')  # never rounded up
+        self.assertEqual(figures.bar(waiting.Wait(2.0, (1.5, 4.0), False, True)), (0.5, 2.0))
+        # Fits over the same rows have no bar.
+        self.assertTrue(np.isnan(figures.bar(waiting.Wait(2.0, None, False, True))).all())
+        self.assertEqual(waiting.Wait(17.96, (17, 18), True, True).text, '> 17.9')  # never rounded up
         line = waiting.line(PaperRuns(runs), '89', COMPACITIES)
         self.assertEqual((line.compacities, line.left_out), ([0.829, 0.85, 0.9069], 1))
         self.assertAlmostEqual(line.slope, 60.0, places=6)

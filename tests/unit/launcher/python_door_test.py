@@ -286,6 +286,17 @@ class Fields(Door):
         self.assertEqual((one.x, one.y.shape, one.z.shape, one['p'].shape), (2.0, (10,), (8,), (10, 8)))
         np.testing.assert_allclose(one['U'][4, 6], [2.0, one.y[4], one.z[6]])
 
+    def test_outputs_are_read_without_what_draws(self):
+        self.write_all()
+        self.write('case.yaml', CASE.replace('dimension: 2', 'dimension: 3').replace('[4, 6]', '[6, 5, 4]'))
+        self.write('fluid/slices/a.vtr', slice_file(0, 2.0))
+        self.write('fluid/slices/slices.pvd', series((1, 'a.vtr')))
+        code = ('import sys; sys.modules["matplotlib"] = None; import turbidite; run = turbidite.load(sys.argv[1]); '
+                'print(run.slices[0].at(1)["p"].shape, len(run.fields), len(run.grains))')
+        told = subprocess.run([sys.executable, '-B', '-c', code, str(self.folder)], capture_output=True, text=True,
+                              env={**os.environ, 'PYTHONPATH': str(places.HERE.parent)})
+        self.assertEqual(told.stdout, '(10, 8) 2 2\n', told.stderr)
+
     def test_fields_of_space_keep_their_layers(self):
         self.write_all()
         self.write('case.yaml', CASE.replace('dimension: 2', 'dimension: 3').replace('[4, 6]', '[4, 3, 1]'))

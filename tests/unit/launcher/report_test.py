@@ -423,6 +423,25 @@ class Report(RunFolderTest):
                                          f'{own}</DataArray></PointData>'))
             self.assertEqual(told(), f'density {words}')
 
+    def test_the_case_tells_the_shapes_that_grains_have(self):
+        """A file of grains names others than grains.shape."""
+        self.write_all()
+        self.write('case.yaml', CASE.replace('  adapter', '  shape: disc\n  adapter'))
+        told = lambda: facts.kinds_of(run_data.load_run(self.folder))
+        self.assertEqual(told(), '2 discs')
+        record = json.loads((self.folder / 'run.json').read_text())
+        shapes = [{'kind': kind, 'vertices': []} for kind in ('disc', 'triangle', 'triangle')]
+        self.write('run.json', json.dumps({**record, 'shapes': shapes}))
+        self.assertEqual(told(), '2 discs')  # this output has no shapes
+        path = self.folder / 'grains/grains_00000000.vtp'
+        text = path.read_text()
+        for own, words in (('1 2', '2 triangles'), ('1 0', '1 triangle, 1 disc')):
+            path.write_text(text.replace('</PointData>', '<DataArray type="Int64" Name="shape" format="ascii">'
+                                         f'{own}</DataArray></PointData>'))
+            self.assertEqual(told(), words)
+        path.write_text(text[:300])
+        self.assertEqual(told(), '2 discs')
+
     def test_rows_need_not_be_equally_far_apart(self):
         """As after `resume --set output.interval`, or an output on request."""
         self.write_all()
@@ -436,6 +455,20 @@ class Report(RunFolderTest):
             self.assertAlmostEqual(found.time, 6.0, places=6)
             self.assertFalse(found.bound)
             self.assertGreaterEqual(((times >= found.begin) & (times <= found.end)).sum(), 3)
+
+    def test_fits_over_the_same_rows_bound_nothing(self):
+        """Rows 1 t_c apart: all fits are over three of them, 2 t_c. Rows 0.26 t_c apart: three to eight of them."""
+        self.write_all()
+        self.write('case.yaml', CASE.replace('sedimentation', 'avalanche'))
+        for row, words in ((1.0, 'the rows are too far apart for fits of other lengths, which would bound it.'),
+                           (0.26, 't_c with fits over 0.52 to 1.8 t_c.')):
+            times = np.arange(0.0, 13.0, row)
+            velocity = 0.4 / (1.0 + np.exp(6.0 - times))
+            self.write('history.csv', 'step,time,mean_velocity_norm\n'
+                       + ''.join(f'{n},{t},{u}\n' for n, (t, u) in enumerate(zip(times, velocity))))
+            run = run_data.load_run(self.folder)
+            self.assertIn(words, relaxation.caption(run))
+            self.assertEqual(relaxation.relaxation(run).spread is None, row == 1.0)
 
     def test_rows_need_not_divide_the_length_of_the_fit(self):
         time = 0.26 * np.arange(60)

@@ -3,6 +3,7 @@
 import json
 import unittest
 import warnings
+import weakref
 
 import matplotlib
 
@@ -24,7 +25,7 @@ import run_data
 import seeds
 from analysis import concentration, energy, snapshots, weight_balance
 from document.page import Page
-from space import ball_image, camera, chains, free_surface, scene, sequence, slices, walls
+from space import ball_image, camera, chains, free_surface, scene, sequence, slice_files, slices, walls
 
 CASE = """dimension: 3
 domain:
@@ -203,7 +204,7 @@ class Slices(SpaceRun):
                           for k, name in enumerate(('z1.25', 'x2')))
         self.write('fluid/slices/slices.pvd', f'<VTKFile><Collection>{entries}</Collection></VTKFile>')
         self.run_data = run_data.load_run(self.folder)
-        self.z, self.x = (slices.read(*plane[0]) for plane in slices.series(self.run_data))
+        self.z, self.x = (slice_files.read(*plane[0]) for plane in slice_files.series(self.run_data))
 
     def test_rows_are_upwards_whatever_the_axis(self):
         self.assertEqual((self.z.axis, self.z.place, self.z.pressure.shape), (2, 1.25, (10, 12)))
@@ -221,6 +222,19 @@ class Slices(SpaceRun):
         free = self.z.pressure[1:].mean()
         self.assertAlmostEqual(float(slices.level_free(self.z)[3, 5]), 41 - free)
         plt.close('all')
+
+    def test_cells_count_by_their_area(self):
+        """Ten rows, the uppermost as high as the nine below it together: half of the plane."""
+        rows = np.append(np.linspace(0.0, 2.5, 10), 5.0)
+        self.z.edges = [self.z.edges[0], rows]
+        self.z.covered[:] = 0.0
+        self.z.pressure[:] = np.repeat([0.0, 4.0], [9, 1])[:, None]
+        np.testing.assert_allclose(slices.level_free(self.z)[[0, -1], 0], [-2.0, 2.0])
+        self.z.velocity[..., 1] = np.repeat([0.0, 1.0], [9, 1])[:, None]
+        self.assertEqual(slices.quantile(self.z.velocity[..., 1], slices.areas(self.z), 0.6), 1.0)
+        values = np.random.default_rng(1).normal(size=(3, 5))
+        self.assertAlmostEqual(slices.quantile(values, np.full((3, 5), 0.2), 0.9), np.quantile(values, 0.9))
+        self.assertEqual(slices.quantile(np.array([3.0]), np.array([0.1]), 0.9), 3.0)
 
     def test_side_views_have_the_floor_below(self):
         frame = scene.frame(self.run_data, [self.grains()], camera.SIDE)
@@ -553,6 +567,24 @@ class Report(SpaceRun):
         (self.folder / 'grains/grains.pvd').unlink()
         self.assertEqual(film.main(['film.py', str(self.folder)]), 2)
         self.assertFalse((self.folder / 'film.webp').exists())
+
+
+    def test_no_more_than_a_few_pictures_are_in_the_memory_at_once(self):
+        made, alive = [], []
+
+        def images():
+            for k in range(40):
+                image = Image.new('RGB', (8, 8), (6 * k, 0, 0))
+                made.append(weakref.ref(image))
+                alive.append(sum(one() is not None for one in made))
+                yield image
+        film.write(self.folder / 'many.webp', images(), 40)
+        self.assertLess(max(alive), 5)
+        with Image.open(self.folder / 'many.webp') as shown:
+            self.assertEqual(shown.n_frames, 40)
+            shown.seek(39)
+            self.assertAlmostEqual(shown.convert('RGB').getpixel((4, 4))[0], 234, delta=12)
+            self.assertEqual(shown.info['duration'], film.LAST_FRAME)
 
 
 if __name__ == '__main__':

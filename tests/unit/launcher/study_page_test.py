@@ -93,7 +93,8 @@ class Page(RunFolderTest):
         self.write(f'{folder}/run.json', json.dumps({'status': 'done', 'windows_done': 30}))
         page = self.page()
         self.assertIn('Peak of the mean velocity [u<sub>c</sub>]</td><td>1.1</td><td>1.3</td>', page)
-        self.assertIn(f'{folder}: history.csv is not whole: it ends with window 20, and run.json says that 30 are done.', page)
+        self.assertIn(f'<code>{folder}</code>: history.csv is not whole: it ends with window 20, and run.json says '
+                      'that 30 are done.', page)
 
     def test_what_a_longer_run_may_change_is_so_far(self):
         self.write_study()
@@ -110,7 +111,8 @@ class Page(RunFolderTest):
         self.write_study()
         self.write('sweep/friction-0.3-seed-1/run.json', json.dumps({'status': 'done', 'parts': [
             {'from_window': 0}, {'from_window': 5, 'overrides': ['contact.tolerance=0.1', 'time.end=2']}]}))
-        self.assertIn('sweep/friction-0.3-seed-1: The run was resumed from window 5 on with contact.tolerance=0.1.', self.page())
+        self.assertIn('<code>sweep/friction-0.3-seed-1</code>: The run was resumed from window 5 on with '
+                      'contact.tolerance=0.1.', self.page())
 
     def test_variants_are_not_averaged_though_their_cases_name_the_same_copies(self):
         self.write_study()
@@ -120,6 +122,12 @@ class Page(RunFolderTest):
         record['runs'][0]['values']['variant'] = 'c'
         self.write('study.json', json.dumps(record))
         self.assertNotIn('(1.1 to 2.1)', self.page())
+
+    def test_its_command_can_be_copied(self):
+        self.write_study()
+        _, runs = study.load(self.folder)
+        self.assertIn('Made by: <code>turbidite study a --set x=1e-4</code>',
+                      study.make_page('a', runs, 'turbidite study a --set x=1e-4').text())
 
     def test_a_study_of_an_earlier_version_has_no_command(self):
         self.write_study()

@@ -9,8 +9,10 @@ import made_up_run  # noqa: F401  (finds the modules of the report)
 
 matplotlib.use('Agg')
 
+import captions
 import run_data
 from head import facts, key_numbers, verdict
+from measured import MEASURED
 from document.page import Page
 
 CASE = {'time.step': '0.5', 'fluid.enabled': 'true', 'scales.kind': 'sedimentation', 'limits.grain_balance_soft': '1e-08',
@@ -92,6 +94,20 @@ class Verdict(unittest.TestCase):
         self.assertEqual(said(run)['solvers'], (verdict.HOLDS, 'The contacts of every window up to the last row are solved to '
                                                 'their tolerance (6 windows by the rows).'))
 
+    def test_springs_are_not_said_to_be_solved(self):
+        """run.json counts 0 of their windows, and so do the rows."""
+        springs = {'step': [0, 10], 'time': [0, 5], 'contact_iterations': [np.nan, 20],
+                   'contact_residual': [np.nan, np.nan], 'unconverged': [np.nan, 0]}
+        run = run_with({'unconverged_multiplier_windows': None}, history=springs)
+        self.assertNotIn('solvers', said(run))
+        self.assertNotIn('Windows in which', captions.solvers(run))
+        self.assertIsNone({one.name: one for one in MEASURED}['unconverged_windows'].of(run))
+        self.assertIn('solvers', said(run_with(history=springs)))  # the multipliers of a fluid are
+        killed = run_with({'unconverged_multiplier_windows': 0}, {'windows_done': 5}, springs)
+        self.assertNotIn('solvers', said(killed))                  # its rows tell nothing of them
+        run.history['contact_residual'][1] = 1e-9
+        self.assertEqual(said(run)['solvers'][0], verdict.HOLDS)
+
     def test_maxima_of_an_earlier_part_are_said_to_be_of_it(self):
         rows = {'step': [0, 5, 8], 'time': [0, 2, 4], 'max_penetration': [0, 1e-5, 1e-3]}
         run = run_with(record={'windows_done': 5}, history=rows)
@@ -137,6 +153,19 @@ class Commands(unittest.TestCase):
                                'from': 'runs/x@3', 'out': '/runs/y'})
         self.assertEqual(run.command(), "turbidite run '/a/my case.yaml' --set 'domain.size=[4, 6]' --set time.end=2 "
                          '--from runs/x@3 --out /runs/y')
+
+    def test_can_be_copied(self):
+        record = {'case_file': 'a', 'overrides': ['contact.tolerance=1e-4'],
+                  'versions': {'turbidite': '0.1.0', 'commit': '12e45'}}
+        page = Page('title')
+        page.table(facts.facts(run_with(record=record, case={'domain.size': '[4, 6]'})))
+        self.assertIn('<code>turbidite run a --set contact.tolerance=1e-4</code>', page.text())
+        self.assertIn('turbidite 0.1.0 (commit <code>12e45</code>)', page.text())
+
+    def test_name_no_run_that_grains_were_poured_in(self):
+        """It was played by the command itself."""
+        run = run_with(record={'case_file': 'heap', 'from': 'runs/poured', 'hash_before_pouring': 'a1b2'})
+        self.assertEqual(run.command(), 'turbidite run heap')
 
 
 class KeyNumbers(unittest.TestCase):
