@@ -32,6 +32,8 @@ CellRows::CellRows(const RankGroup& group, int columns, int rows, const std::vec
     choose_rows(rows, cells);
     sort_cells(cells);
     check_complete();
+    if (!straight_) return;
+    own_cells_ = std::vector<int>(), own_places_ = std::vector<int>();  // 8 bytes per cell
 }
 
 std::unique_ptr<Pencils> CellRows::pencils() const {

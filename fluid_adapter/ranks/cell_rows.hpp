@@ -63,7 +63,7 @@ class CellRows {
     RankGroup group_;
     int columns_;
     std::vector<Span> rows_of_rank_;
-    // All cells stay, and are already in the order of the rows.
+    // All cells stay, and are already in the order of the rows: they need no lists.
     bool straight_ = false;
     std::vector<int> own_cells_, own_places_;  // cells that stay, and their places in the rows
     std::vector<Part> away_, received_;        // sections of the next two lists
@@ -76,8 +76,7 @@ class CellRows {
 template <class ValueOf>
 void CellRows::gather(ValueOf value_of, double* rows) {
     if (straight_) {
-        const int n = static_cast<int>(own_cells_.size());
-        for (int c = 0; c < n; ++c) rows[c] = value_of(c);
+        for (int c = 0; c < size(); ++c) rows[c] = value_of(c);
         return;
     }
     for (std::size_t k = 0; k < away_cells_.size(); ++k) away_values_[k] = value_of(away_cells_[k]);
@@ -92,8 +91,7 @@ void CellRows::gather(ValueOf value_of, double* rows) {
 template <class Put>
 void CellRows::scatter(const double* rows, Put put) {
     if (straight_) {
-        const int n = static_cast<int>(own_cells_.size());
-        for (int c = 0; c < n; ++c) put(c, rows[c]);
+        for (int c = 0; c < size(); ++c) put(c, rows[c]);
         return;
     }
     for (std::size_t k = 0; k < received_places_.size(); ++k)
