@@ -118,6 +118,8 @@ ResolvedCase resolved_case(CaseEntries entries, const std::filesystem::path& fol
                            const GivenGrains& given, Machine machine) {
     CaseProblems problems = std::move(entries.problems);
     if (entries.entries.empty() && !problems.empty()) throw CaseRefused(std::move(problems));
+    const CaseEntry* const file = given.earlier ? entries.find("grains.file") : nullptr;
+    const std::string unread = file ? file->value : "";
     if (given.earlier) name_grains_file(entries);
     auto [settings, of_keys] = check_keys(key_table(), entries);
     append(problems, std::move(of_keys));
@@ -134,6 +136,8 @@ ResolvedCase resolved_case(CaseEntries entries, const std::filesystem::path& fol
     place_command(settings, folder);
     ResolvedCase resolved = resolve(std::move(settings), std::move(placed), entries);
     if (!of_program.empty()) resolved.notes.push_back(of_program);
+    if (!unread.empty())
+        resolved.notes.push_back("grains.file = " + unread + " has no effect with --from");
     for (const CaseEntry& entry : entries.entries) resolved.given.push_back(entry.key);
     return resolved;
 }

@@ -70,7 +70,7 @@ bool has_functions(const Settings& settings) {
 void place_functions(const Settings& settings, const CaseEntries& entries,
                      const std::filesystem::path& folder, PlacedCase& placed) {
     const auto file = folder / settings.text("fluid.functions");
-    if (is_file(file))
+    if (can_be_read(file))
         placed.functions = read_function_objects(file);
     else
         placed.problems.push_back(missing_file(entries, "fluid.functions", file));
@@ -114,7 +114,7 @@ PlacedCase place(const Settings& settings, const CaseEntries& entries,
     });
     if (settings.has("grains.script")) {
         const auto file = folder / settings.text("grains.script");
-        if (is_file(file))
+        if (can_be_read(file))
             placed.script = read_whole(file);
         else
             placed.problems.push_back(missing_file(entries, "grains.script", file));

@@ -98,7 +98,11 @@ CommandAction declare_run(CLI::App& app) {
                   "key=value, replaces a value of the case; may be repeated (see turbidite keys)");
     app.add_option("--from", options->from,
                    "start from the grains of another run, at its end or at an output time [t_c]")
-        ->type_name("DIR[@TIME]");
+        ->type_name("DIR[@TIME]")
+        // An empty variable of a script would begin with other grains.
+        ->check([](const std::string& given) {
+            return given.empty() ? "it is empty; give the folder of a run" : "";
+        });
     app.add_option("--out", options->order.out,
                    "run folder, new or empty; default runs/<case>-<date>-<time>")
         ->type_name("DIR");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/commands/key_schema.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -53,7 +54,18 @@ void set_choices(Json& schema, const KeySpec& key) {
 void set_entries(Json& schema, const KeySpec& key) {
     schema["items"] = {{"type", "number"}};
     set_range(schema["items"], key.range);
-    if (key.entries > 0) schema["minItems"] = schema["maxItems"] = key.entries;
+    if (key.entries == 0) return;
+    const int in_space = key.in_space.entries == 0 ? key.entries : key.in_space.entries;
+    schema["minItems"] = std::min(key.entries, in_space);
+    schema["maxItems"] = std::max(key.entries, in_space);
+}
+
+/// `~`, which takes a key out of a case.
+void allow_nothing(Json& schema) {
+    if (schema.contains("enum"))
+        schema["enum"].push_back(nullptr);
+    else
+        schema["type"] = {schema["type"], "null"};
 }
 
 Json schema_of(const KeySpec& key) {
@@ -62,6 +74,7 @@ Json schema_of(const KeySpec& key) {
     if (key.type == KeyType::real || key.type == KeyType::integer) set_range(schema, key.range);
     if (key.type == KeyType::choice) set_choices(schema, key);
     if (key.type == KeyType::real_list) set_entries(schema, key);
+    allow_nothing(schema);
     if (key.need == Need::fallback && !key.fallback.empty())
         schema["description"] =
             schema["description"].get<std::string>() + "; default " + key.fallback;

@@ -156,7 +156,7 @@ void add_swept_keys(const std::string& prefix, const YAML::Node& node, StudyPart
 
 void add_variants(const YAML::Node& node, StudyPart& part, Complaints& complaints) {
     if (!node.IsDefined()) return;
-    if (!node.IsMap()) {
+    if (!node.IsMap() || node.size() == 0) {
         complaints.add(node, "variants contains no names", "It is a map of names, each with keys.",
                        "Write for example variants: {md: {grains.adapter: yade-md}}.");
         return;
@@ -282,7 +282,11 @@ void read_parts(const YAML::Node& parts, const fs::path& folder, Study& study,
                        "Write for example parts: {column: {case: avalanche-dry.yaml}}.");
         return;
     }
+    std::set<std::string> seen;
     for (const auto& item : parts) {
+        if (!seen.insert(item.first.Scalar()).second)
+            complaints.add(item.first, "part " + item.first.Scalar() + " is given twice",
+                           "Its runs would be taken together.", "Give one of them another name.");
         if (item.second.IsMap()) refuse_unknown_keys(item.second, part_keys, complaints);
         study.parts.push_back(read_part(item.first.Scalar(), item.second, folder, complaints));
     }

@@ -102,6 +102,11 @@ TEST_F(CommandLine, HelpAndVersion) {
     EXPECT_EQ(contact.at("friction").at("minimum"), 0.0);
     EXPECT_EQ(contact.at("materials").at("additionalProperties").at("properties").count("friction"),
               1u);
+    // Also cases in space, and keys that a case takes out.
+    const auto& size = schema.at("properties").at("domain").at("properties").at("size");
+    EXPECT_EQ(size.at("minItems"), 2);
+    EXPECT_EQ(size.at("maxItems"), 3);
+    EXPECT_EQ(contact.at("friction").at("type"), (nlohmann::json{"number", "null"}));
     const Answer wrong = turbidite("keys contcat");
     EXPECT_EQ(wrong.code, 2);
     EXPECT_SAYS(wrong.err, "Did you mean contact?");

@@ -143,6 +143,8 @@ CaseEntries read_case_entries(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides) {
     CaseEntries result;
     read_file(file, result);
+    // What --set gives is no case by itself: its missing keys would be told, too.
+    if (result.entries.empty() && !result.problems.empty()) return result;
     report_repeated(result);
     for (const std::string& text : overrides) {
         CaseEntries extra = entries_of_override(text);

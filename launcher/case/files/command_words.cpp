@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <sstream>
 
@@ -27,7 +28,7 @@ std::optional<std::vector<std::string>> command_words(const std::string& text) {
             words.back() += c;
         } else if (c == quote) {
             quote = '\0';
-        } else if (c == ' ') {
+        } else if (std::isspace(static_cast<unsigned char>(c)) != 0) {
             inside = false;
         } else {
             if (!inside) words.emplace_back();
@@ -45,7 +46,7 @@ std::optional<std::vector<std::string>> command_words(const std::string& text) {
 std::string command_text(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words) {
-        const bool plain = !word.empty() && word.find_first_of(" '\"") == std::string::npos;
+        const bool plain = !word.empty() && word.find_first_of(" \t\r\n'\"") == std::string::npos;
         const char quote = word.find('\'') == std::string::npos ? '\'' : '"';
         text += text.empty() ? "" : " ";
         text += plain ? word : quote + word + quote;

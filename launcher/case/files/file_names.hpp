@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 namespace turbidite {
@@ -12,6 +13,11 @@ namespace turbidite {
 inline bool is_file(const std::filesystem::path& name) {
     std::error_code fault;
     return std::filesystem::is_regular_file(name, fault);
+}
+
+/// Also by this user.
+inline bool can_be_read(const std::filesystem::path& name) {
+    return is_file(name) && std::ifstream(name).good();
 }
 
 inline bool is_folder(const std::filesystem::path& name) {

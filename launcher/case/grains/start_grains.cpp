@@ -222,13 +222,17 @@ bool is_in_box(const std::vector<double>& n, const PackingBox& box) {
 CaseProblem missing_file(const CaseEntries& entries, const std::string& key,
                          const std::filesystem::path& file) {
     const CaseEntry* entry = entries.find(key);
+    const std::string name = file.lexically_normal().string();
+    const bool unreadable = is_file(file);
     return {.source = entry ? entry->source : file.string(),
             .line = entry ? entry->line : 0,
             .key = key,
             .value = entry ? entry->value : file.filename().string(),
             .fault = {},
-            .allowed = fmt::format("There is no file {}.", file.lexically_normal().string()),
-            .remedy = "Paths are relative to the folder of the case file."};
+            .allowed = unreadable ? "The file " + name + " cannot be read by this user."
+                                  : "There is no file " + name + ".",
+            .remedy = unreadable ? "Change its permissions."
+                                 : "Paths are relative to the folder of the case file."};
 }
 
 StartGrains start_grains(const Settings& settings, const CaseEntries& entries,

@@ -101,10 +101,11 @@ void time_notes(const Settings& settings, std::vector<std::string>& notes) {
             "output.fields_interval is shorter than output.interval; fields are written at every "
             "output");
     else if (!is_whole_number(fields / every) && fields < end)
-        notes.push_back(fmt::format(
-            "output.fields_interval = {} is not a whole number of outputs; "
-            "fields come every {:.6g} t_c",
-            settings.text("output.fields_interval"), every * std::round(fields / every)));
+        notes.push_back(
+            fmt::format("output.fields_interval = {} is not a whole number of outputs; "
+                        "fields come every {:.6g} t_c",
+                        settings.text("output.fields_interval"),
+                        every * std::max(1.0, std::round(fields / every))));
 }
 
 }  // namespace

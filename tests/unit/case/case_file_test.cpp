@@ -203,10 +203,11 @@ TEST_F(CaseFile, MissingKeys) {
 
 TEST_F(CaseFile, MissingFileAndBadYaml) {
     try {
-        load_case(folder.path() / "nowhere.yaml");
+        load_case(folder.path() / "nowhere.yaml", {"time.end=5"});
         FAIL() << "a missing file was accepted";
     } catch (const CaseRefused& refused) {
         EXPECT_SAYS(std::string(refused.what()), "nowhere.yaml: cannot be read");
+        EXPECT_SAYS(std::string(refused.what()), "1 error,") << "not the keys that --set lacks";
     }
     const std::string text = refusal("contact: {friction: 0.3\n");
     EXPECT_SAYS(text, "box.yaml line 1");

@@ -11,12 +11,15 @@ using Words = std::vector<std::string>;
 TEST(CommandWords, AreSeparatedBySpacesAndKeptTogetherByQuotes) {
     EXPECT_EQ(command_words("  python3 my.py  -v"), (Words{"python3", "my.py", "-v"}));
     EXPECT_EQ(command_words("a 'b c' \"d'e\" '' f'g h'i"), (Words{"a", "b c", "d'e", "", "fg hi"}));
+    // Of a text over several lines of a YAML file
+    EXPECT_EQ(command_words("a --b 1\n\t--c 2\n"), (Words{"a", "--b", "1", "--c", "2"}));
     EXPECT_FALSE(command_words("a 'b"));
     EXPECT_FALSE(command_words("   "));
 }
 
 TEST(CommandWords, ComeBackFromTheirText) {
-    for (const Words& words : {Words{"a", "b c", "", "d'e f"}, Words{"/x/y", "-n", "3"}})
+    for (const Words& words :
+         {Words{"a", "b c", "", "d'e f"}, Words{"/x/y", "-n", "3"}, Words{"a\tb", "c\nd"}})
         EXPECT_EQ(command_words(command_text(words)), words);
 }
 

@@ -296,6 +296,10 @@ TEST_F(StudyTest, KeysAreGivenOnce) {
         refusal("case: column.yaml\nsweep: {random.seed: [3]}\nsweep: {random.seed: [4]}\n"),
         "sweep is given twice");
     EXPECT_SAYS(refusal("case: column.yaml\n---\ncase: column.yaml\n"), "second document");
+    EXPECT_SAYS(refusal("parts:\n  a: {case: column.yaml}\n  a: {case: column.yaml, set: "
+                        "{contact.friction: 0.9}}\n"),
+                "part a is given twice");
+    EXPECT_SAYS(refusal("{case: column.yaml, variants: {}}"), "variants contains no names");
     EXPECT_FALSE(is_study(scratch.path()));
 }
 
