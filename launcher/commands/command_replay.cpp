@@ -8,6 +8,7 @@
 
 #include "coupler/replay/recorded_start.hpp"
 #include "launcher/case/files/file_names.hpp"
+#include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/commands/command.hpp"
 #include "launcher/job/overdue.hpp"
 #include "launcher/job/play_run.hpp"
@@ -106,7 +107,9 @@ int replay(const ReplayOptions& options) {
     LaunchSite site = this_site();
     site.programs.scripted_fluid = !needs_mesh;
     require_programs(resolved, needed_programs(resolved.settings, site.programs));
-    const auto [folder, lock] = own_run_folder(options.order, resolved.name + "-replay");
+    RunOrder order = options.order;
+    order.for_openfoam = has_openfoam(resolved.settings);
+    const auto [folder, lock] = own_run_folder(order, resolved.name + "-replay");
     const auto line = replay_arguments(resolved.settings, folder, site, side, recording);
     prepare_run(resolved, folder, line, mesh_of_replay(side));
     if (checkpoint) {

@@ -138,10 +138,12 @@ double time_per_grain(const ResolvedCase& resolved) {
 
 /// A repeated window repeats its sub-steps; contact solves with the fluid's inertia begin where the
 /// last one ended.
-double grains_time(const ResolvedCase& resolved) {
+double grains_time(const ResolvedCase& resolved, double cores) {
     const bool repeated = scheme_of(resolved).repeats;
-    return time_per_grain(resolved) * count(resolved) * (repeated ? rounds(resolved) : 1.0) /
-           static_cast<double>(resolved.settings.integer("grains.ranks"));
+    // Ranks that have a core of their own.
+    const double ranks =
+        std::min(cores, static_cast<double>(resolved.settings.integer("grains.ranks")));
+    return time_per_grain(resolved) * count(resolved) * (repeated ? rounds(resolved) : 1.0) / ranks;
 }
 
 /// Messages of a window that wait for the one before: call_order.cpp.
@@ -213,11 +215,10 @@ std::string grains_ranks_warning(const ResolvedCase& resolved, double cores) {
     const std::string begin = fmt::format(
         "grains.ranks = {:.0f} for {:.0f} grains on {:.0f} cores: ", ranks, count(resolved), cores);
     if (ranks > cores)
-        return begin +
-               fmt::format(
-                   "ranks wait for each other eight times per sweep, and those beyond the "
-                   "cores make all the others wait. Use grains.ranks = {:.0f} or fewer here.",
-                   cores);
+        return begin + fmt::format(
+                           "ranks wait for each other eight times per sweep, and those beyond the "
+                           "cores make all the others wait. Use grains.ranks = {} here.",
+                           best_grains_ranks(resolved.population.size(), cores));
     if (count(resolved) >= grains_for_ranks) return "";
     return begin + fmt::format(
                        "ranks wait for each other eight times per sweep, which pays from about "
@@ -227,7 +228,7 @@ std::string grains_ranks_warning(const ResolvedCase& resolved, double cores) {
 
 WindowForecast forecast_window(const ResolvedCase& resolved, double cores) {
     return {.fluid = fluid_time(resolved, cores),
-            .grains = grains_time(resolved),
+            .grains = grains_time(resolved, cores),
             .coupler = checks * count(resolved),
             .messages = handover * messages_in_turn(resolved),
             .side_by_side = scheme_of(resolved).side_by_side()};

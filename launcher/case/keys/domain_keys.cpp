@@ -127,6 +127,7 @@ KeySpec motion_part(const char* name, KeyType type, const char* unit, const char
 /// x and y, in space also z.
 KeySpec motion_vector(const char* name, const char* unit, const char* help) {
     KeySpec key = motion_part(name, KeyType::real_list, unit, help);
+    key.allowed = "A list of two numbers, x and y; with dimension: 3 of three.";
     key.in_space = {.entries = 3, .allowed = "A list of three numbers: x, y, z."};
     return key;
 }

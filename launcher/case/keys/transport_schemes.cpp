@@ -111,7 +111,8 @@ SchemeChoice read_transport_scheme(const std::string& text) {
     std::vector<std::string> words = words_of(text);
     if (!words.empty() && words[0] == "bounded") words.erase(words.begin());
     const bool has_gauss = !words.empty() && words[0] == "Gauss";
-    if (has_gauss) words.erase(words.begin());
+    // The scheme that is meant is the next word where the first one is only written otherwise.
+    if (has_gauss || (words.size() > 1 && words[0] == "gauss")) words.erase(words.begin());
     const std::string name = words.empty() ? "limitedLinearV" : words[0];
     const TransportScheme& nearest = nearest_scheme(name);
     const std::string remedy = fmt::format("Use {}.", with_default(nearest));

@@ -483,6 +483,8 @@ TEST_F(CaseFile, WordsThatATransportSchemeDoesNotReadAreRefused) {
     EXPECT_SAYS(refusal("", {set + "linear 3"}), "linear takes no parameter, so \"3\" means");
     EXPECT_SAYS(refusal("", {set + "linearUpwind grad(U) bar"}), "takes one parameter, so \"bar\"");
     EXPECT_EQ(refusal("", {set + "LUST grad(U)"}), "");
+    EXPECT_SAYS(refusal("", {"fluid.transport_scheme=gauss LUST grad(U)"}),
+                "Use Gauss LUST grad(U).");
 }
 
 TEST_F(CaseFile, TheParameterOfALimiterIsFrom0To1) {

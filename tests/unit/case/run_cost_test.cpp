@@ -67,6 +67,12 @@ TEST_F(RunCost, RanksBeyondTheCoresCostTime) {
               forecast_window(two, 2.0).seconds());
     EXPECT_GT(forecast_window(sixteen, 2.0).seconds(), 5.0 * forecast_window(two, 2.0).seconds());
     EXPECT_LT(forecast_window(sixteen, 16.0).seconds(), forecast_window(two, 16.0).seconds());
+    // Nor do grains: ranks without a core of their own save no time.
+    const auto grains = [&](const char* ranks, double cores) {
+        return forecast_window(of({"grains.adapter=standalone-nscd", ranks}), cores).grains;
+    };
+    EXPECT_EQ(grains("grains.ranks=16", 2.0), grains("grains.ranks=2", 2.0));
+    EXPECT_LT(grains("grains.ranks=2", 2.0), grains("grains.ranks=1", 2.0));
 
     EXPECT_EQ(ranks_warning(two, 2.0), "");
     EXPECT_EQ(ranks_warning(sixteen, 16.0), "");
