@@ -101,7 +101,7 @@ TEST_F(StudyRuns, GoesOnAfterARunThatFails) {
     const std::string table = text(scratch.path() / "s/study.csv");
     EXPECT_SAYS(table, "physics refused");
     EXPECT_SAYS(table, "limits.penetration");
-    EXPECT_SAYS(text(scratch.path() / "s/study.html"), "coarse: physics refused");
+    EXPECT_SAYS(text(scratch.path() / "s/study.html"), "coarse</code>: physics refused");
 }
 
 /// A PATH with a program in the place of mpirun alone.
@@ -123,7 +123,7 @@ TEST_F(StudyRuns, GoesOnWhereARunCannotBePlayed) {
     EXPECT_SAYS(answer.out, "2 of 3 runs done");
     EXPECT_EQ(column("status"), (std::vector<std::string>{"missing", "done", "done"}));
     EXPECT_SAYS(text(scratch.path() / "s/study.csv"), "is not empty, and no run is in it");
-    EXPECT_SAYS(text(scratch.path() / "s/study.html"), "frictions/friction-0: missing. ");
+    EXPECT_SAYS(text(scratch.path() / "s/study.html"), "frictions/friction-0</code>: missing. ");
     EXPECT_EQ(text(notes), "the user's");
 }
 
