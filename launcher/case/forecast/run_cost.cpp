@@ -108,13 +108,16 @@ double turns(const ResolvedCase& resolved, double cores) {
     return ranks > cores ? meetings * time_slice * (ranks - cores) / cores : 0.0;
 }
 
+double ranks_with_a_core(const Settings& settings, const char* key, double cores) {
+    return std::min(cores, static_cast<double>(settings.integer(key)));
+}
+
 double fluid_time(const ResolvedCase& resolved, double cores) {
     const Settings& settings = resolved.settings;
     if (!settings.flag("fluid.enabled")) return 0.0;
     const auto [cell, covered] = rates(settings);
     const bool stages = settings.text("fluid.time_scheme") == "second-order";
-    // Ranks that have a core of their own.
-    const double ranks = std::min(cores, static_cast<double>(settings.integer("fluid.ranks")));
+    const double ranks = ranks_with_a_core(settings, "fluid.ranks", cores);
     return turns(resolved, cores) +
            cell * (stages ? second_order : 1.0) * fluid_cells(settings) / ranks +
            // The busiest rank decides, with 1.6 times its equal share of the covered cells, or all
@@ -140,9 +143,7 @@ double time_per_grain(const ResolvedCase& resolved) {
 /// last one ended.
 double grains_time(const ResolvedCase& resolved, double cores) {
     const bool repeated = scheme_of(resolved).repeats;
-    // Ranks that have a core of their own.
-    const double ranks =
-        std::min(cores, static_cast<double>(resolved.settings.integer("grains.ranks")));
+    const double ranks = ranks_with_a_core(resolved.settings, "grains.ranks", cores);
     return time_per_grain(resolved) * count(resolved) * (repeated ? rounds(resolved) : 1.0) / ranks;
 }
 
