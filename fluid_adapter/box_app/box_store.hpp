@@ -32,7 +32,7 @@ class LayerFields final : public RowFields {
     void write_pressure(const double* p, bool floating) override;
     VelocityOnSides side_velocity() const override { return held_; }
 
-    /// Sets the sides for the window [time, time + step]. Returns whether any moves.
+    /// Sets the sides for the window [time, time + step].
     MovedSides set_sides(double time, double step);
 
     const VelocityOnSides& held() const { return held_; }

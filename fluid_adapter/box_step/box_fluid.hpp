@@ -94,7 +94,7 @@ struct HeldFlux {
             extrapolate(count, *extrapolated, faces, last[axis].data() + first,
                         flux[axis].data() + first);
     }
-    /// The same where phi1 itself is held in first order.
+    /// The same; in first order phi1 itself is held.
     void hold(int axis, std::size_t first, int count, const double* faces) {
         if (extrapolated)
             hold_middle(axis, first, count, faces);

@@ -184,10 +184,10 @@ void SphereCells::join_shut_in() {
         owners_.set(of.at, 1, CellOwners::shut_in);
         if (!cells_.owns(j)) continue;
         ++shut_in_;
-        const Eigen::Vector3d nearest(arm(of.grain, x, i), arm(of.grain, y, j),
+        const Eigen::Vector3d closest(arm(of.grain, x, i), arm(of.grain, y, j),
                                       arm(of.grain, z, k));
         runs_[of.grain].push_back({cells_.cell(i, j, k), 1,
-                                   (*grains_)[of.grain].wall ? of.arm : nearest,
+                                   (*grains_)[of.grain].wall ? of.arm : closest,
                                    grid().relative_volume(i, j)});
     }
 }
