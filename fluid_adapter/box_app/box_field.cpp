@@ -17,6 +17,7 @@ BoxField::BoxField(const CellGrid& grid, double density, const RankGroup& ranks,
 
 void BoxField::work_on(FluidStep& step) {
     for (int axis = 0; axis < 3; ++axis) velocity_[axis] = step.velocity(axis);
+    rows_ = step.rows();
 }
 
 void BoxField::set_pressure(const double* p, double level) {
@@ -30,6 +31,10 @@ void BoxField::hold_grains(const GrainId* ids, int count) const {
 
 void BoxField::sum_over_holders(double* rows, int per_grain) const {
     if (shared_) shared_->sum(rows, per_grain);
+}
+
+void BoxField::import_layers(const VelocityPointers& u, LayersBeside& beside) const {
+    if (ranks_.parallel()) import_layers_of(*rows_, u, layers(), beside);
 }
 
 void BoxField::accelerate(const Vec3& change) {

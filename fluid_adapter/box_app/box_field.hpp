@@ -35,6 +35,7 @@ class BoxField final : public StoredField {
     void sum_over_ranks(double* values, int count) const override { ranks_.sum(values, count); }
     void hold_grains(const GrainId* ids, int count) const override;
     void sum_over_holders(double* rows, int per_grain) const override;
+    void import_layers(const VelocityPointers& u, LayersBeside& beside) const override;
 
     void load(const Constraint&) override {}
     void store(const Constraint&) override {}
@@ -53,6 +54,7 @@ class BoxField final : public StoredField {
     CellTable none_;  // of the plane
     std::unique_ptr<SharedGrains> shared_;
     std::array<double*, 3> velocity_{};
+    BoxRows* rows_ = nullptr;  // of the step
     std::vector<double> p_;
     double level_ = 0.0;
 };

@@ -94,6 +94,7 @@ class BoxStep {
     }
 
     const BoxLayers& layers() const { return layers_; }
+    BoxRows& rows() { return *rows_; }
     std::size_t cells() const { return layers_.cells(); }  ///< of this rank
 
     double viscosity() const { return fluid_.viscosity; }  ///< nu [m2/s]

@@ -52,6 +52,7 @@ class BoxFluidStep final : public FluidStep, private SecondOrderHost {
     std::vector<BoundaryForce> end_coupled() override;
     bool finite() override;
     double* velocity(int axis) override;
+    BoxRows* rows() override { return &step_.rows(); }
     void put_velocity() override;
     void put_unconstrained() override;
     void take_velocity() override;

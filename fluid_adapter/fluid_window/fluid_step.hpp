@@ -74,6 +74,9 @@ class FluidStep {
     /// where the field holds it.
     virtual double* velocity(int) { return nullptr; }
 
+    /// The rows that it works on, if any, whose values other ranks can be asked for.
+    virtual BoxRows* rows() { return nullptr; }
+
     // Between the step's own values and the fields u and p:
 
     virtual void put_velocity() {}                        ///< into u

@@ -5,6 +5,9 @@
 // halo of at least two layers; both have local indices. Valid C++17.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "coupler/protocol/records.hpp"
 #include "fluid_adapter/multiplier/cell_grid.hpp"
 #include "fluid_adapter/multiplier/cell_table.hpp"
@@ -12,6 +15,11 @@
 #include "fluid_adapter/multiplier/layer_cells.hpp"
 
 namespace turbidite {
+
+/// A velocity in the layer below a rank's first and in that above its last, by component.
+struct LayersBeside {
+    std::array<std::vector<double>, 3> below, above;  ///< nx nz values [m/s]
+};
 
 class FluidField {
  public:
@@ -70,6 +78,10 @@ class FluidField {
     /// Both components of a velocity in the halo cells, in the order of their local indices, as
     /// their owners have them in x and y, over the owned cells; by every rank.
     virtual std::array<const double*, 2> import_halo(const double*, const double*) { return {}; }
+
+    /// In space: what other ranks have beside this rank's layers, of a velocity over the owned
+    /// cells; left as it is where there is a side. By every rank.
+    virtual void import_layers(const VelocityPointers&, LayersBeside&) const {}
 
     /// Sums, over all ranks that know a cell, the values they hold there, and returns the sum to
     /// each of them. Both components are indexed by local cell, and zero where the rank contributes

@@ -53,6 +53,9 @@ struct ImmersedGrain {
     Vec3 driving_impulse{};
     FluidBeyond beyond{};   ///< of a grain that leaves
     Twist motion_before{};  ///< U^n, omega^n, with which the fluid beyond moves
+    /// By which the position has changed since the last window [m]; zero where no cell is to be
+    /// told apart by it.
+    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
 
     /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h, the driving
     /// impulse, and the momentum of the fluid beyond a free side. J_h is already contained in

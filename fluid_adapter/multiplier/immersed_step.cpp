@@ -40,7 +40,8 @@ PointRules point_rules(const Settings& settings) {
 
 std::unique_ptr<Constraint> make_constraint(FluidField& field, const Settings& settings,
                                             const RunValues& run) {
-    if (run.dimension == 3) return std::make_unique<InteriorConstraint>(field);
+    if (run.dimension == 3)
+        return std::make_unique<InteriorConstraint>(field, splitting_of(settings).rigid_grains);
     return std::make_unique<PlaneConstraint>(field, point_rules(settings),
                                              multiplier_settings(settings, run));
 }
@@ -121,7 +122,8 @@ void ImmersedStep::take_free(const std::vector<GrainState>& states, const Window
     for (std::size_t g = 0; g < states.size(); ++g) {
         Impulse& given = grains_[g].given_impulse;
         given = weight(states[g], window.step);
-        grains_[g].motion_before = grains_[g].contact_motion;
+        grains_[g].motion_before = twist_of(states[g]);
+        note_moved(grains_[g], window);
         if (!carries_contacts_) continue;
         // J^n of the last window, a prediction: `push` adds the difference to this window's.
         contact_impulses_[g] = contact_impulse(states[g]);
@@ -137,9 +139,19 @@ void ImmersedStep::take_constrained(const std::vector<GrainState>& states, const
         // ImmersedGrain::momentum.
         contact_impulses_[g] = contact_impulse(state);
         grains_[g].announced_impulse = {state.announced_impulse, state.announced_angular_impulse};
-        if (!state.prescribed && grains_[g].effective_mass > 0.0)
+        if (state.prescribed)
+            grains_[g].motion_before = twist_of(state);
+        else if (grains_[g].effective_mass > 0.0)
             grains_[g].motion_before = before_contacts(grains_[g], state, window.step);
+        note_moved(grains_[g], window);
     }
+}
+
+/// q^n - q^{n-1} = dt U^n; where a run begins nothing has moved.
+void ImmersedStep::note_moved(ImmersedGrain& grain, const Window& window) const {
+    if (window.index == 0) return;
+    const Vec3 moved = window.step * grain.motion_before.velocity;
+    grain.moved = {moved[0], moved[1], moved[2]};
 }
 
 /// (M - m_f) g dt: buoyancy is that of R, not of R_h.
@@ -180,6 +192,7 @@ MultiplierResult ImmersedStep::carry_fluid_along() {
     for (ImmersedGrain& body : starting) {
         body.contact_motion = body.prescribed ? Twist{} : body.motion_before;
         body.prescribed = true;
+        body.moved.setZero();
     }
     const VelocityPointers u = field_.velocities();
     std::vector<std::vector<double>> carried(u.size(),

@@ -87,6 +87,7 @@ class ImmersedStep {
     Twist before_contacts(const ImmersedGrain& grain, const GrainState& state, double step) const;
     void take(const std::vector<GrainState>& states, const Window& window);
     void prescribe(const Window& window);
+    void note_moved(ImmersedGrain& grain, const Window& window) const;
     bool answers_for(std::size_t grain) const;
     FreeResponse response(std::size_t g) const;
     double mismatch(std::size_t g) const;

@@ -9,6 +9,7 @@ namespace turbidite {
 
 void SpaceField::work_on(FluidStep& step) {
     for (int axis = 0; axis < 3; ++axis) velocity_[axis] = step.velocity(axis);
+    rows_ = step.rows();
     find_layers();
 }
 
@@ -19,6 +20,10 @@ void SpaceField::find_layers() {
     mesh_cell_.resize(numbers.size());
     for (std::size_t c = 0; c < numbers.size(); ++c)
         mesh_cell_[numbers[c] - first_cell_] = static_cast<int>(c);
+}
+
+void SpaceField::import_layers(const VelocityPointers& u, LayersBeside& beside) const {
+    if (fields_.ranks.parallel()) import_layers_of(*rows_, u, layers(), beside);
 }
 
 void SpaceField::accelerate(const Vec3& change) {

@@ -20,6 +20,7 @@ class SpaceField final : public FoamField {
     int mesh_cell(int cell) const override { return mesh_cell_[cell]; }
     Vec3 velocity_of(int cell) const override { return constrained(cell); }
 
+    void import_layers(const VelocityPointers& u, LayersBeside& beside) const override;
     void accelerate(const Vec3& change) override;
     FluidMomentum momentum() const override;
     void load(const Constraint&) override {}
@@ -29,6 +30,7 @@ class SpaceField final : public FoamField {
     void find_layers();
 
     CellTable none_;              // of the plane
+    BoxRows* rows_ = nullptr;     // of the step
     std::vector<int> mesh_cell_;  // by local index
     int first_cell_ = 0;          // number of the first
 };

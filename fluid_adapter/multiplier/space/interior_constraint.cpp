@@ -228,16 +228,23 @@ std::vector<InteriorConstraint::Six> InteriorConstraint::carry(
 MultiplierResult InteriorConstraint::solve(const VelocityPointers& u) {
     velocity_ = u;
     impulses_.assign(grains_->size(), Six::Zero());
-    // U = A^-1 (P + sum m (u ; r x u))
+    if (slip_return_) return_slip(u);
+    // U = A^-1 (P + J + sum m (u ; r x u)), where J is of the slip that was returned
     motions_ = sum_velocity(u);
     for (std::size_t g = 0; g < motions_.size(); ++g) {
         const ImmersedGrain& grain = (*grains_)[g];
         const Impulse momentum = grain.momentum();
-        motions_[g] = grain.prescribed
-                          ? six(grain.contact_motion.velocity, grain.contact_motion.spin)
-                          : moved(g, motions_[g] + six(momentum.linear, momentum.moment));
+        motions_[g] =
+            grain.prescribed
+                ? six(grain.contact_motion.velocity, grain.contact_motion.spin)
+                : moved(g, motions_[g] + impulses_[g] + six(momentum.linear, momentum.moment));
     }
     return {};
+}
+
+void InteriorConstraint::return_slip(const VelocityPointers& u) {
+    const std::vector<Vector> moments = slip_return_->play(*grains_, u);
+    for (std::size_t g = 0; g < moments.size(); ++g) impulses_[g].tail<3>() = -moments[g];
 }
 
 MultiplierResult InteriorConstraint::push(const std::vector<Impulse>& impulses) {

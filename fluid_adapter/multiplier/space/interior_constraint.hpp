@@ -10,21 +10,28 @@
 //     (U, omega) = A^-1 P,    u_c = U + omega x r
 //
 // A is positive definite for spheres of any density that cover enough fluid, also where cM <= 0.
+// Before, the fluid gets back what spheres have taken by covering it (slip_return.hpp).
 // What is found is exact, so that W is symmetric to rounding and nothing iterates. Valid C++17.
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <optional>
 
 #include "fluid_adapter/multiplier/constraint.hpp"
 #include "fluid_adapter/multiplier/fluid_field.hpp"
+#include "fluid_adapter/multiplier/space/slip_return.hpp"
 #include "fluid_adapter/multiplier/space/sphere_cells.hpp"
 
 namespace turbidite {
 
 class InteriorConstraint final : public Constraint {
  public:
-    /// `field` is kept by reference.
-    explicit InteriorConstraint(FluidField& field) : field_(field), cells_(field.layers()) {}
+    /// `field` is kept by reference. `returns_slip`: as slip_return.hpp says, which the paper's
+    /// splitting does not.
+    explicit InteriorConstraint(FluidField& field, bool returns_slip = true)
+        : field_(field), cells_(field.layers()) {
+        if (returns_slip) slip_return_.emplace(field, cells_.owners());
+    }
 
     void place(const std::vector<ImmersedGrain>& grains) override;
     MultiplierResult solve(const VelocityPointers& u) override;
@@ -58,6 +65,7 @@ class InteriorConstraint final : public Constraint {
     using SixBySix = Eigen::Matrix<double, 6, 6>;
 
     void sum_bodies();
+    void return_slip(const VelocityPointers& u);
     std::vector<Six> sum_velocity(const VelocityPointers& u) const;
     std::vector<Six> carry(const VelocityPointers& u, const std::vector<Six>& motions) const;
     template <class Row>
@@ -66,6 +74,7 @@ class InteriorConstraint final : public Constraint {
 
     FluidField& field_;
     SphereCells cells_;
+    std::optional<SlipReturn> slip_return_;
     const std::vector<ImmersedGrain>* grains_ = nullptr;
     VelocityPointers velocity_{};
     std::vector<Eigen::LLT<SixBySix>> bodies_;  // A; not of grains of prescribed motion

@@ -39,6 +39,7 @@ class SphereCells {
     /// layers, and all walls.
     void find(const std::vector<ImmersedGrain>& grains);
 
+    const CellOwners& owners() const { return owners_; }
     const std::vector<CellRun>& runs(std::size_t grain) const { return runs_[grain]; }
 
     /// Cells that joined a sphere since they were shut in.

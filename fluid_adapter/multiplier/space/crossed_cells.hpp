@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+//
+// Cells whose centres the surface of a moving sphere has crossed since the last window: those that
+// it has newly covered, and those that it has left to the fluid. Valid C++17.
+#pragma once
+
+#include <vector>
+
+#include "fluid_adapter/multiplier/immersed_grain.hpp"
+#include "fluid_adapter/multiplier/space/cell_owners.hpp"
+
+namespace turbidite {
+
+struct CrossedCell {
+    int grain;
+    CellPlace at;         ///< in the grid
+    Eigen::Vector3d arm;  ///< r = x - X of its centre [m]
+    bool covered;         ///< or else left
+};
+
+class CrossedCells {
+ public:
+    /// Keeps references to both; the owners are those of the window's positions.
+    CrossedCells(const LayerCells& cells, const CellOwners& owners)
+        : cells_(cells), owners_(owners) {}
+
+    /// Of this rank's layers and of those beside them. A cell that another body has now, or had
+    /// before, counts as covered by its new owner and is left by nobody. A sphere that meets itself
+    /// round a cyclic axis crosses none.
+    const std::vector<CrossedCell>& find(const std::vector<ImmersedGrain>& grains);
+
+    /// Whether a body may cross cells.
+    bool crosses(const ImmersedGrain& body) const;
+
+ private:
+    /// A row of cells along x, relative to the sphere: r = (x, y, z) for the cells of any x.
+    struct Row {
+        int grain, j, k;  // in the grid
+        double y, z;
+    };
+
+    void find_rows(int grain, const ImmersedGrain& sphere);
+    void find_row(const Row& row, const ImmersedGrain& sphere);
+    void take(const Row& row, const ImmersedGrain& sphere, int i);
+    bool known(int layer) const;
+    const CellGrid& grid() const { return *cells_.grid; }
+
+    LayerCells cells_;
+    const CellOwners& owners_;
+    std::vector<CrossedCell> crossed_;
+};
+
+/// Whether a sphere covered r = x - X before the window.
+inline bool was_inside(const ImmersedGrain& sphere, const Eigen::Vector3d& arm) {
+    return (arm + sphere.moved).squaredNorm() < sphere.radius * sphere.radius;
+}
+
+}  // namespace turbidite
