@@ -38,8 +38,7 @@ std::vector<Eigen::Vector3d> SlipReturn::play(const std::vector<ImmersedGrain>& 
         moments[g] = sums[g].segment<3>(3) + sums[g].tail<3>().cross(shift[g]);
     }
     for (const ShellCell& of : shell_)
-        for (int axis = 0; axis < 3; ++axis)
-            u[axis][of.cell] += of.weight * shift[of.grain][axis];
+        for (int axis = 0; axis < 3; ++axis) u[axis][of.cell] += of.weight * shift[of.grain][axis];
     return moments;
 }
 
