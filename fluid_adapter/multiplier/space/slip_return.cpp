@@ -64,27 +64,29 @@ void SlipReturn::find_shell(std::size_t grain, const ImmersedGrain& sphere, Sums
         const int layer = grid().wrapped(1, j);
         if (layer < 0 || !cells_.owns(layer)) continue;
         for (int k = across.low; k <= across.high; ++k) {
-            const int row = grid().wrapped(2, k);
-            const Eigen::Vector3d centre(0.0, grid().centre(1, j) - sphere.position.y(),
-                                         grid().centre(2, k) - sphere.position.z());
-            const double square = outer * outer - centre.squaredNorm();
-            if (row < 0 || square <= 0.0) continue;
-            const int* owners = owners_.row(layer, row);
-            const LayerSpan along = grid().layers_within(0, sphere.position.x(), std::sqrt(square));
-            for (int i = along.low; i <= along.high; ++i) {
-                const int column = grid().wrapped(0, i);
-                if (column < 0 || owners[column] != CellOwners::none) continue;
-                Eigen::Vector3d arm = centre;
-                arm.x() = grid().centre(0, i) - sphere.position.x();
-                if (arm.squaredNorm() >= outer * outer) continue;
-                const double weight =
-                    std::abs(arm.dot(sphere.moved)) / (arm.norm() * sphere.moved.norm());
-                const double mass = field_.cell_mass(column, layer);
-                sums[6] += mass * weight;
-                sums.tail<3>() += mass * weight * arm;
-                shell_.push_back({grain, cells_.cell(column, layer, row), weight});
-            }
+            const Eigen::Vector3d arm(0.0, grid().centre(1, j) - sphere.position.y(),
+                                      grid().centre(2, k) - sphere.position.z());
+            const double square = outer * outer - arm.squaredNorm();
+            if (const int row = grid().wrapped(2, k); row >= 0 && square > 0.0)
+                find_shell_row({grain, layer, row, arm, std::sqrt(square)}, sphere, sums);
         }
+    }
+}
+
+void SlipReturn::find_shell_row(const ShellRow& row, const ImmersedGrain& sphere, Sums& sums) {
+    const int* owners = owners_.row(row.j, row.k);
+    const LayerSpan along = grid().layers_within(0, sphere.position.x(), row.half);
+    for (int i = along.low; i <= along.high; ++i) {
+        const int column = grid().wrapped(0, i);
+        const double x = grid().centre(0, i) - sphere.position.x();
+        if (column < 0 || std::abs(x) >= row.half || owners[column] != CellOwners::none) continue;
+        const Eigen::Vector3d arm(x, row.arm.y(), row.arm.z());
+        // |n.U| over |U|
+        const double weight = std::abs(arm.dot(sphere.moved)) / (arm.norm() * sphere.moved.norm());
+        const double mass = weight * field_.cell_mass(column, row.j);
+        sums[6] += mass;
+        sums.tail<3>() += mass * arm;
+        shell_.push_back({row.grain, cells_.cell(column, row.j, row.k), weight});
     }
 }
 

@@ -12,10 +12,10 @@
 //                sphere beside it had got
 //
 // "Outside" are neighbours across faces, each by the component of the normal. The sphere gives the
-// moment alone: the momentum is taken off the shell of free cells around it, a cell thick, since
-// the drag of spheres is that of a sphere at rest in a stream without it. Otherwise a sphere that
-// crosses cells sideways takes up a spin, the slip being larger ahead than behind. Evidence:
-// docs/decisions/multipliers.md. Valid C++17.
+// moment alone: the momentum is taken off the shell of free cells around it, a cell thick, of each
+// by |n.U|, as often as it is crossed, since without it the drag is that of a sphere at rest in a
+// stream. Otherwise a sphere that crosses cells sideways takes up a spin, the slip being larger
+// ahead than behind. Evidence: docs/decisions/multipliers.md. Valid C++17.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,14 +39,23 @@ class SlipReturn {
                                       const VelocityPointers& u);
 
  private:
-    /// Of a grain: what its cells give (linear, angular), and mass and first moment of its shell.
+    /// Of a grain: what its cells give (linear, angular), and weighted mass and first moment of its
+    /// shell.
     using Sums = Eigen::Matrix<double, 10, 1>;
 
     /// A cell of a grain's shell, on this rank.
     struct ShellCell {
         std::size_t grain;
         int cell;
-        double weight;
+        double weight;  // |n.U|/|U|
+    };
+
+    /// Cells along x within `half` of the centre, in the grid's row (j, k).
+    struct ShellRow {
+        std::size_t grain;
+        int j, k;
+        Eigen::Vector3d arm;  // without x
+        double half;
     };
 
     /// A neighbour, and its part of all.
@@ -57,6 +66,7 @@ class SlipReturn {
     };
 
     void return_from(const CrossedCell& cell, const ImmersedGrain& sphere, Sums& sums);
+    void find_shell_row(const ShellRow& row, const ImmersedGrain& sphere, Sums& sums);
     void find_shell(std::size_t grain, const ImmersedGrain& sphere, Sums& sums);
     void find_outside(const CrossedCell& cell, const ImmersedGrain& sphere);
     void find_inside(const CrossedCell& cell);
