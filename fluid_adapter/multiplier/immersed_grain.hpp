@@ -56,6 +56,7 @@ struct ImmersedGrain {
     /// By which the position has changed since the last window [m]; zero where no cell is to be
     /// told apart by it.
     Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+    Vec3 stream_gain{};  ///< a dt, which the body force has given all fluid since U^n [m/s]
 
     /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h, the driving
     /// impulse, and the momentum of the fluid beyond a free side. J_h is already contained in

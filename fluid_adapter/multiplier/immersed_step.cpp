@@ -152,6 +152,7 @@ void ImmersedStep::note_moved(ImmersedGrain& grain, const Window& window) const 
     if (window.index == 0) return;
     const Vec3 moved = window.step * grain.motion_before.velocity;
     grain.moved = {moved[0], moved[1], moved[2]};
+    grain.stream_gain = window.step * run_.acceleration;
 }
 
 /// (M - m_f) g dt: buoyancy is that of R, not of R_h.

@@ -140,7 +140,10 @@ Eigen::Vector3d SlipReturn::velocity(const CellPlace& at) const {
 
 Eigen::Vector3d SlipReturn::slip(const ImmersedGrain& sphere, const CellPlace& at,
                                  const Eigen::Vector3d& arm) const {
-    return velocity(at) - rigid_velocity(sphere.motion_before, arm);
+    // A sphere that moves with its stream has none, whatever drives it.
+    Twist motion = sphere.motion_before;
+    motion.velocity = motion.velocity + sphere.stream_gain;
+    return velocity(at) - rigid_velocity(motion, arm);
 }
 
 /// Where the momentum that the sphere gives counts: in the cells that get it, or, behind it, in

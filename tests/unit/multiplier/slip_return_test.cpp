@@ -235,6 +235,7 @@ TEST(SlipReturn, OfFluidThatMovesWithTheSphereIsNothing) {
     std::vector<ImmersedGrain> grains{sphere(1, {1.53, 1.54, 1.56})};
     grains[0].moved = {0.05, -0.04, 0.03};
     grains[0].motion_before = {{1.0, 0.5, 0.2}, {0.3, 0.2, -0.4}};
+    grains[0].stream_gain = {0.01, 0.02, -0.03};
     for (int j = 0; j < box[1]; ++j)
         for (int k = 0; k < box[2]; ++k)
             for (int i = 0; i < box[0]; ++i) {
@@ -244,7 +245,8 @@ TEST(SlipReturn, OfFluidThatMovesWithTheSphereIsNothing) {
                     grains[0].position;
                 const Vec3 u = grains[0].motion_before.at({arm.x(), arm.y(), arm.z()});
                 for (int axis = 0; axis < 3; ++axis)
-                    field.velocity(axis)[field.cell(i, j, k)] = u[axis];
+                    field.velocity(axis)[field.cell(i, j, k)] =
+                        u[axis] + grains[0].stream_gain[axis];
             }
     SpaceField before = field;
     EXPECT_LT(play(field, grains)[0].norm(), 1e-15);
