@@ -103,6 +103,24 @@ Settings settings_of(const CoupledSetup& setup) {
     return settings;
 }
 
+Settings settings_in_space(CoupledSetup setup, const std::array<int, 3>& cells,
+                           const std::string& front, const std::string& back) {
+    const double edge = 1.0 / setup.cells_per_diameter;
+    setup.width = cells[0] * edge;
+    setup.height = cells[1] * edge;
+    setup.time_scheme = "second-order";
+    setup.transport_scheme = "Gauss LUST grad(U)";
+    setup.points = "interior";
+    Settings settings = settings_of(setup);
+    settings.set("run.dimension", std::int64_t{3});
+    settings.set("run.size_z", cells[2] * edge);
+    settings.set("run.acceleration_z", 0.0);
+    settings.set("run.surface_shift", 0.3 * edge);
+    settings.set("domain.front", front);
+    settings.set("domain.back", back);
+    return settings;
+}
+
 GrainState disc_at(const CoupledSetup& setup, double x, double y, double vx, double vy) {
     GrainState grain;
     grain.id = 1;

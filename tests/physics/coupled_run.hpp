@@ -57,6 +57,11 @@ CoupledSetup with_sides(const Sides& sides);
 
 Settings settings_of(const CoupledSetup& setup);
 
+/// In space: of so many cells along x, y and z, with transport of second order, cells inside grains
+/// alone, and the surface shifted by 0.3 of a cell. Of `setup` width and height do not count.
+Settings settings_in_space(CoupledSetup setup, const std::array<int, 3>& cells,
+                           const std::string& front, const std::string& back);
+
 /// A grain of the setup's shape with R = 1/2.
 GrainState disc_at(const CoupledSetup& setup, double x, double y, double vx = 0.0, double vy = 0.0);
 

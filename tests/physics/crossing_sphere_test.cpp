@@ -20,21 +20,9 @@ constexpr std::array<int, 3> cells{32, 48, 32};
 Settings cyclic_box(const std::string& splitting) {
     CoupledSetup setup;
     setup.left = setup.right = setup.bottom = setup.top = "cyclic";
-    setup.width = cells[0] * edge;
-    setup.height = cells[1] * edge;
     setup.cells_per_diameter = per_diameter;
     setup.splitting = splitting;
-    setup.time_scheme = "second-order";
-    setup.transport_scheme = "Gauss LUST grad(U)";
-    setup.points = "interior";
-    Settings settings = settings_of(setup);
-    settings.set("run.dimension", std::int64_t{3});
-    settings.set("run.size_z", cells[2] * edge);
-    settings.set("run.acceleration_z", 0.0);
-    settings.set("run.surface_shift", 0.3 * edge);
-    settings.set("domain.front", std::string("cyclic"));
-    settings.set("domain.back", std::string("cyclic"));
-    return settings;
+    return settings_in_space(setup, cells, "cyclic", "cyclic");
 }
 
 /// Mean torque about z [rho_f u_c2 D3] on a sphere that crosses cells along x, in a stream along y

@@ -25,22 +25,10 @@ constexpr double edge = 1.0 / per_diameter;
 Settings space_settings(const std::string& splitting) {
     CoupledSetup setup;
     setup.left = setup.right = "cyclic";
-    setup.width = cells[0] * edge;
-    setup.height = cells[1] * edge;
     setup.cells_per_diameter = per_diameter;
     setup.splitting = splitting;
     setup.splitting_tolerance = 1e-6;
-    setup.time_scheme = "second-order";
-    setup.transport_scheme = "Gauss LUST grad(U)";
-    setup.points = "interior";
-    Settings settings = settings_of(setup);
-    settings.set("run.dimension", std::int64_t{3});
-    settings.set("run.size_z", cells[2] * edge);
-    settings.set("run.acceleration_z", 0.0);
-    settings.set("run.surface_shift", 0.3 * edge);
-    settings.set("domain.front", std::string("wall"));
-    settings.set("domain.back", std::string("free"));
-    return settings;
+    return settings_in_space(setup, cells, "wall", "free");
 }
 
 std::vector<GrainState> two_spheres() {
