@@ -35,7 +35,6 @@ bool CrossedCells::crosses(const ImmersedGrain& body) const {
 
 /// This rank's layers and those beside them.
 bool CrossedCells::known(int layer) const {
-    if (layer < 0) return false;
     for (const int beside : {0, -1, 1}) {
         const int at = grid().wrapped(up, layer + beside);
         if (at >= 0 && cells_.owns(at)) return true;
@@ -44,21 +43,11 @@ bool CrossedCells::known(int layer) const {
 }
 
 void CrossedCells::find_rows(int grain, const ImmersedGrain& sphere) {
-    // Around both places
-    const Eigen::Vector3d middle = sphere.position - 0.5 * sphere.moved;
-    const double reach = sphere.radius + 0.5 * sphere.moved.norm();
-    LayerSpan spans[3];
-    for (const int axis : {along, up, across})
-        spans[axis] = grid().layers_within(axis, middle[axis], reach);
-    for (int j = spans[up].low; j <= spans[up].high; ++j) {
-        const int layer = grid().wrapped(up, j);
-        if (!known(layer)) continue;
-        for (int k = spans[across].low; k <= spans[across].high; ++k)
-            if (const int row = grid().wrapped(across, k); row >= 0)
-                find_row({grain, layer, row, grid().centre(up, j) - sphere.position.y(),
-                          grid().centre(across, k) - sphere.position.z()},
-                         sphere);
-    }
+    // Of both places
+    const double reach = sphere.radius + sphere.moved.norm();
+    for_rows_within(grid(), sphere.position, reach, [&](int j, int k, double y, double z) {
+        if (known(j)) find_row({grain, j, k, y, z}, sphere);
+    });
 }
 
 void CrossedCells::find_row(const Row& row, const ImmersedGrain& sphere) {

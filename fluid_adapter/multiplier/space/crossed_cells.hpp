@@ -50,6 +50,21 @@ class CrossedCells {
     std::vector<CrossedCell> crossed_;
 };
 
+/// Calls visit(j, k, y, z) for the rows of cells along x within `reach` of a position, but for what
+/// is beyond sides: their place in the grid, and their distances from the position [m].
+template <class Visit>
+void for_rows_within(const CellGrid& grid, const Eigen::Vector3d& at, double reach, Visit visit) {
+    const LayerSpan up = grid.layers_within(1, at.y(), reach),
+                    across = grid.layers_within(2, at.z(), reach);
+    for (int j = up.low; j <= up.high; ++j) {
+        const int layer = grid.wrapped(1, j);
+        if (layer < 0) continue;
+        for (int k = across.low; k <= across.high; ++k)
+            if (const int row = grid.wrapped(2, k); row >= 0)
+                visit(layer, row, grid.centre(1, j) - at.y(), grid.centre(2, k) - at.z());
+    }
+}
+
 /// Whether a sphere covered r = x - X before the window.
 inline bool was_inside(const ImmersedGrain& sphere, const Eigen::Vector3d& arm) {
     return (arm + sphere.moved).squaredNorm() < sphere.radius * sphere.radius;

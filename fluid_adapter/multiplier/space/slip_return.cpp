@@ -58,19 +58,11 @@ void SlipReturn::return_from(const CrossedCell& cell, const ImmersedGrain& spher
 /// Free cells whose centres are less than a cell from the sphere.
 void SlipReturn::find_shell(std::size_t grain, const ImmersedGrain& sphere, Sums& sums) {
     const double outer = sphere.radius + grid().spacing[0];
-    const LayerSpan up = grid().layers_within(1, sphere.position.y(), outer),
-                    across = grid().layers_within(2, sphere.position.z(), outer);
-    for (int j = up.low; j <= up.high; ++j) {
-        const int layer = grid().wrapped(1, j);
-        if (layer < 0 || !cells_.owns(layer)) continue;
-        for (int k = across.low; k <= across.high; ++k) {
-            const Eigen::Vector3d arm(0.0, grid().centre(1, j) - sphere.position.y(),
-                                      grid().centre(2, k) - sphere.position.z());
-            const double square = outer * outer - arm.squaredNorm();
-            if (const int row = grid().wrapped(2, k); row >= 0 && square > 0.0)
-                find_shell_row({grain, layer, row, arm, std::sqrt(square)}, sphere, sums);
-        }
-    }
+    for_rows_within(grid(), sphere.position, outer, [&](int j, int k, double y, double z) {
+        const double square = outer * outer - (y * y + z * z);
+        if (cells_.owns(j) && square > 0.0)
+            find_shell_row({grain, j, k, {0.0, y, z}, std::sqrt(square)}, sphere, sums);
+    });
 }
 
 void SlipReturn::find_shell_row(const ShellRow& row, const ImmersedGrain& sphere, Sums& sums) {
