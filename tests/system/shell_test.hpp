@@ -137,6 +137,10 @@ class ShellTest : public ::testing::Test {
         return lines_without_wall_times(text(scratch.path() / run / "history.csv"));
     }
 
+    /// Exit code of a doctor who finds nothing wrong but, maybe, a disk that others have filled.
+    int healthy() const { return disk_has_room() ? 0 : 2; }
+    bool disk_has_room() const { return std::filesystem::space(scratch.path()).available >= 1e9; }
+
     nlohmann::json record() const { return nlohmann::json::parse(text(run_folder() / "run.json")); }
 
     /// x, y, z of every grain's centre at a step given by eight digits, from the `Points` of the
