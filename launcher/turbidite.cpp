@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -81,6 +83,21 @@ int act(const CommandAction& action) {
         std::fflush(stdout);
         print_on_stderr(for_stderr(std::string(failure.what()) + "\n"));
         return static_cast<int>(failure.code());
+    } catch (const std::filesystem::filesystem_error& error) {
+        std::fflush(stdout);
+        const bool full = error.code() == std::errc::no_space_on_device;
+        const ExitCode code = full ? ExitCode::participant_failed : ExitCode::bad_input;
+        tell_on_stderr(fmt::format(
+            "{}: {}\n  {} Exit code {}.", error.path1().string(), error.code().message(),
+            full ? "Make room: df -h." : "Check this path, and what you may read and write there.",
+            static_cast<int>(code)));
+        return static_cast<int>(code);
+    } catch (const std::bad_alloc&) {
+        std::fflush(stdout);
+        tell_on_stderr(
+            "not enough memory\n  Ask for fewer grains or cells; `free -g` shows what there is. "
+            "Exit code 2.");
+        return static_cast<int>(ExitCode::bad_input);
     } catch (const std::exception& error) {
         std::fflush(stdout);
         tell_on_stderr(error.what());

@@ -97,9 +97,10 @@ Checked check_value(const KeySpec& key, const CaseEntry& entry, CaseProblem& pro
     }
 }
 
-std::vector<std::string> names_of(const KeyTable& table) {
+/// As the user would write them who has written `written`.
+std::vector<std::string> names_as_written(const KeyTable& table, const std::string& written) {
     std::vector<std::string> names;
-    for (const KeySpec& key : table) names.push_back(key.name);
+    for (const KeySpec& key : table) names.push_back(with_words_of(written, key.name));
     return names;
 }
 
@@ -131,7 +132,8 @@ CaseProblem unknown_key(const KeyTable& table, const CaseEntry& entry) {
         problem.remedy = "Remove it.";
         return problem;
     }
-    const std::vector<std::string> names = names_of(table), near = resembling(entry.key, names);
+    const std::vector<std::string> names = names_as_written(table, entry.key);
+    const std::vector<std::string> near = resembling(entry.key, names);
     const std::string help =
         near.size() == 1 ? fmt::format("({})", find_key(table, near.front())->help) : "";
     problem.allowed = did_you_mean(entry.key, names, help);

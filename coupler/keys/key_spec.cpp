@@ -73,6 +73,15 @@ std::vector<std::string> parts_of(const std::string& name) {
     return parts;
 }
 
+std::string with_words_of(const std::string& written, const std::string& name) {
+    std::vector<std::string> parts = parts_of(name);
+    const std::vector<std::string> words = parts_of(written);
+    if (parts.size() != words.size()) return name;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (has_placeholder(parts[i]) && stands_for(parts[i], words[i])) parts[i] = words[i];
+    return fmt::format("{}", fmt::join(parts, "."));
+}
+
 KeySpec of_space(KeySpec key) {
     key.dimension = 3;
     if (key.need == Need::fallback) key.in_space.fallback = std::exchange(key.fallback, "");

@@ -84,6 +84,10 @@ KeySpec in_dimension(const KeySpec& key, int dimension);
 /// "contact", "friction".
 std::vector<std::string> parts_of(const std::string& name);
 
+/// `domain.motions.NAME.kind` with the words of `domain.motions.shake.kin`, so that it can be
+/// written into the case; as it is where the two do not have the same parts.
+std::string with_words_of(const std::string& written, const std::string& name);
+
 /// True if its name has parts in capitals.
 bool has_words(const KeySpec& key);
 

@@ -10,9 +10,8 @@
 namespace turbidite {
 namespace {
 
-const std::regex whole_list(
-    R"(\s*([xyz]\s*=\s*[-+.\deE]+)(\s*[,\s]\s*[xyz]\s*=\s*[-+.\deE]+)*\s*)");
-const std::regex one_plane(R"(([xyz])\s*=\s*([-+.\deE]+))");
+/// Between two planes stands a comma or a space.
+const std::regex one_plane(R"((?:^\s*|\s*[,\s]\s*)([xyz])\s*=\s*([-+.\deE]+))");
 
 std::optional<double> number(const std::string& text) {
     double value = 0.0;
@@ -27,13 +26,17 @@ std::optional<double> number(const std::string& text) {
 std::optional<std::vector<SlicePlane>> read_slices(const std::string& text) {
     std::vector<SlicePlane> planes;
     if (text == "none") return planes;
-    if (!std::regex_match(text, whole_list)) return std::nullopt;
-    for (std::sregex_iterator at(text.begin(), text.end(), one_plane), end; at != end; ++at) {
+    // One after the other: an expression for the whole list would recurse once per plane.
+    std::size_t read = 0;
+    const auto next = std::regex_constants::match_continuous;
+    for (std::sregex_iterator at(text.begin(), text.end(), one_plane, next), end; at != end; ++at) {
         const std::optional<double> place = number((*at)[2]);
         if (!place) return std::nullopt;
         planes.push_back({static_cast<std::size_t>((*at)[1].str()[0] - 'x'), *place});
+        read = static_cast<std::size_t>(at->position() + at->length());
     }
-    return planes;
+    const bool is_whole = text.find_first_not_of(" \t\r\n", read) == std::string::npos;
+    return is_whole && !planes.empty() ? std::optional(planes) : std::nullopt;
 }
 
 std::vector<SlicePlane> slices_of(const Settings& settings) {

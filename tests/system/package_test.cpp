@@ -187,5 +187,16 @@ TEST_F(New, NamesTheNearestOfTheShippedCases) {
     EXPECT_FALSE(fs::exists(scratch.path() / "mine.yaml"));
 }
 
+// The system's own words about a path, and what to do.
+TEST_F(New, SaysWhatThePathIsThatCannotBeRead) {
+    const std::string name(300, 'a');
+    for (const std::string command : {"check ", "run ", "resume ", "report "}) {
+        const Answer answer = shell(TURBIDITE_PROGRAM " " + command + name);
+        EXPECT_EQ(answer.code, 2) << command;
+        EXPECT_SAYS(answer.err, name) << command;
+        EXPECT_SAYS(answer.err, "File name too long\n  Check this path") << command;
+    }
+}
+
 }  // namespace
 }  // namespace turbidite

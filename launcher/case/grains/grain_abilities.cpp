@@ -11,6 +11,7 @@
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
+#include "coupler/keys/limit_text.hpp"
 #include "coupler/protocol/scene/mesh_rows.hpp"
 #include "coupler/protocol/scene/splitting.hpp"
 #include "coupler/shapes/shortest_period.hpp"
@@ -150,9 +151,9 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
         rules.push_back(
             {[=](const PlacedGrain& g) { return top(g) > *height * (1.0 + 1e-12); },
              [=](const PlacedGrain& g) { return fmt::format("reaches y = {:.4g} D", top(g)); },
-             fmt::format("Grains stay where rows of cells are equal, below {:.4g} D "
+             fmt::format("Grains stay where rows of cells are equal, below {} D "
                          "(fluid.stretch_from = {}).",
-                         *height, settings.text("fluid.stretch_from")),
+                         at_most_text(*height, 4), settings.text("fluid.stretch_from")),
              "Use a larger fluid.stretch_from, or fluid.allow_coarse: true."});
     const auto seen = [settings](const PlacedGrain& g) {
         return 2.0 * g.radius * seen_radius(settings, g.radius) *
@@ -253,18 +254,18 @@ LawRange law_range(const Settings& s) {
 }
 
 Objection too_short(const ShortestPeriod& shortest, const LawRange& range) {
-    const double least = shortest.length(range.length);
+    const std::string least = at_least_text(shortest.length(range.length), 4);
     if (shortest.pair() == 0.0)
-        return {fmt::format("Cyclic sides are at least the largest grain apart, {:.4g} D.", least),
+        return {fmt::format("Cyclic sides are at least the largest grain apart, {} D.", least),
                 "Make the box larger, or use wall or free sides."};
     if (range.length == 0.0)
-        return {fmt::format("Cyclic sides are more than the two largest grains apart, {:.4g} D: "
+        return {fmt::format("Cyclic sides are more than the two largest grains apart, {} D: "
                             "else two grains could touch on both sides.",
                             least),
                 "Make the box larger, or use wall or free sides."};
     return {
         fmt::format("Cyclic sides are more than the two largest grains and twice {} = {:.4g} D "
-                    "apart, {:.4g} D: else two grains could attract each other on both sides.",
+                    "apart, {} D: else two grains could attract each other on both sides.",
                     range.key, range.length, least),
         fmt::format("Make the box larger, use wall or free sides, or a smaller {}.", range.key)};
 }

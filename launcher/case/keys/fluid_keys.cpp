@@ -7,6 +7,7 @@
 
 #include "coupler/hub/schemes/scheme.hpp"
 #include "coupler/keys/key_value.hpp"
+#include "coupler/keys/limit_text.hpp"
 #include "coupler/protocol/scene/mesh_rows.hpp"
 #include "coupler/protocol/scene/sides.hpp"
 #include "coupler/protocol/scene/splitting.hpp"
@@ -64,8 +65,9 @@ Ruling transport_can_be_cut(const Settings& s) {
         fmt::format(
             "Transport is cut into at most {:.0f} parts per window, in each of which the "
             "fastest jets (up to {:.0f} u_c) cross {:.2g} of a cell: at {} cells per diameter "
-            "the step must be at most {:.3g} t_c.",
-            most_parts, highest_peak, cells_per_part, s.text("fluid.cells_per_diameter"), largest),
+            "the step must be at most {} t_c.",
+            most_parts, highest_peak, cells_per_part, s.text("fluid.cells_per_diameter"),
+            at_most_text(largest, 3)),
         "Use a smaller step or fewer cells."};
 }
 
@@ -91,8 +93,8 @@ Ruling scheme_is_stable(const Settings& s) {
     return Objection{
         fmt::format("Explicit transport with central differences is unstable for steps above 2 "
                     "nu/u^2, and jets between grains reach u = {:.0f} to {:.0f} u_c: at most 2/(36 "
-                    "Re) = {:.3g} t_c, but time.step = {}.",
-                    usual_peak, highest_peak, *limit, s.text("time.step")),
+                    "Re) = {} t_c, but time.step = {}.",
+                    usual_peak, highest_peak, at_most_text(*limit, 3), s.text("time.step")),
         "Use fluid.time_scheme: second-order, Gauss limitedLinearV 1, which stays bounded, or a "
         "smaller step."};
 }
@@ -151,8 +153,8 @@ Ruling rows_can_stretch(const Settings& s) {
     return Objection{
         fmt::format("Rows need {:.3g} D to grow by a ratio of {}, and the domain ends at {} D.",
                     room, s.text("fluid.stretch_ratio"), real_text(top)),
-        fmt::format("Use {:.4g} or less, a larger fluid.stretch_ratio, or fluid.stretch_ratio: 1.",
-                    std::floor(100.0 * highest) / 100.0)};
+        fmt::format("Use {} or less, a larger fluid.stretch_ratio, or fluid.stretch_ratio: 1.",
+                    at_most_text(highest, 4))};
 }
 
 std::string sentence(const std::string& text) {

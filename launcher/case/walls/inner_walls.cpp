@@ -10,6 +10,7 @@
 #include <map>
 
 #include "coupler/keys/key_value.hpp"
+#include "coupler/keys/limit_text.hpp"
 #include "coupler/shapes/tight_wall.hpp"
 #include "launcher/case/files/csv_table.hpp"
 #include "launcher/case/walls/space_walls.hpp"
@@ -344,8 +345,8 @@ std::vector<CaseProblem> check_thickness(const std::vector<InnerWall>& walls,
                  .value = {},
                  .fault = fmt::format("wall {}: thickness = {:.4g} D", wall.id, wall.thickness),
                  .allowed = fmt::format("The fluid would pass through it: at least {:.0f} cells, "
-                                        "here {:.4g} D.",
-                                        least_cells_of_wall, least),
+                                        "here {} D.",
+                                        least_cells_of_wall, at_least_text(least, 4)),
                  .remedy = least > least_cells_of_wall * rows.height
                                ? "Give a column thickness, or use a larger fluid.stretch_from."
                                : "Give a column thickness, or use more "

@@ -165,8 +165,9 @@ CaseProblems check_motion(const Settings& s, const std::string& name, const Case
         problems.push_back(problem_with(key, objection, s, entries));
     };
     const Kind& kind = kind_of(s, name);
+    // A part whose value has been refused is there.
     for (const char* part : kind.needs)
-        if (!gives(s, name, part))
+        if (!gives(s, name, part) && entries.find(key_of(name, part)) == nullptr)
             object(key_of(name, "kind"),
                    {fmt::format("A motion of this kind needs {}.", key_of(name, part)), "Add it."});
     for (const auto& [key, value] : s.entries()) {

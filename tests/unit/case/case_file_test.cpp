@@ -455,7 +455,7 @@ TEST_F(CaseFile, ExplicitTransportLimitsTheStep) {
     EXPECT_EQ(refusal("", {"time.step=5.2", "time.end=20"}), "");
     const std::string text = refusal("", {"time.step=5.3", "time.end=20"});
     EXPECT_SAYS(text, "time.step = 5.3");
-    EXPECT_SAYS(text, "at most 5.21 t_c");
+    EXPECT_SAYS(text, "at most 5.2 t_c");
     EXPECT_EQ(refusal("", {"time.step=5.3", "time.end=20", "fluid.enabled=false"}), "");
 }
 

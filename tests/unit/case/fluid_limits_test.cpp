@@ -4,6 +4,7 @@
 // large for the memory.
 #include <gtest/gtest.h>
 
+#include "coupler/keys/limit_text.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
 #include "launcher/case/forecast/transform_length.hpp"
 #include "tests/unit/case/case_test.hpp"
@@ -48,6 +49,46 @@ TEST_F(FluidLimits, VeryLightGrainsNeedAPressureThatKnowsThem) {
     EXPECT_EQ(refusal("", {"grains.density_ratio=0.4", "fluid.hydrodynamic_radius=0.85",
                            "fluid.splitting=marchuk-yanenko", "coupling.scheme=joint"}),
               "");
+}
+
+/// What a text says between two of its parts.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+    const std::size_t begin = text.find(before) + before.size();
+    return text.substr(begin, text.find(after, begin) - begin);
+}
+
+// A limit that a message names can be written into the case.
+TEST_F(FluidLimits, ALimitThatIsNamedIsAccepted) {
+    const std::vector<std::string> cut = {"fluid.cells_per_diameter=7", "time.end=40"};
+    const auto with = [](std::vector<std::string> sets, const std::string& more) {
+        sets.push_back(more);
+        return sets;
+    };
+    const std::string step =
+        between(refusal("", with(cut, "time.step=20")), "step must be at most ", " t_c");
+    EXPECT_EQ(step, at_most_text(2.0 / 3.0 * 1000.0 / (8.0 * 7.0), 3));
+    EXPECT_EQ(refusal("", with(cut, "time.step=" + step)).find("step must be"), std::string::npos);
+
+    const std::vector<std::string> stretched = {"fluid.stretch_ratio=1.07",
+                                                "fluid.cells_per_diameter=7"};
+    const std::string from =
+        between(refusal("", with(stretched, "fluid.stretch_from=23.9")), "Use ", " or less");
+    EXPECT_GT(std::stod(from), 1.0);
+    EXPECT_EQ(refusal("", with(stretched, "fluid.stretch_from=" + from)).find("Rows need"),
+              std::string::npos);
+}
+
+TEST(LimitText, IsRoundedToTheSideThatIsAllowed) {
+    EXPECT_EQ(at_most_text(11.9048, 3), "11.9");
+    EXPECT_EQ(at_least_text(11.9048, 3), "12");
+    EXPECT_EQ(at_most_text(11.96, 3), "11.9");
+    EXPECT_EQ(at_least_text(1.0001e-5, 3), "1.01e-05");
+    EXPECT_EQ(at_most_text(-1.96, 2), "-2");
+    // Its own round-off does not move a limit.
+    EXPECT_EQ(at_most_text(3 * 0.1, 3), "0.3");
+    EXPECT_EQ(at_least_text(3 * 0.1, 3), "0.3");
+    EXPECT_EQ(at_least_text(0.0, 3), "0");
+    EXPECT_EQ(at_most_text(INFINITY, 3), "inf");
 }
 
 // Rows and fields come at whole windows and outputs.

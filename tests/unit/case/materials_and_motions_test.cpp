@@ -93,6 +93,10 @@ TEST_F(RichCase, MaterialsMustFitTogether) {
                 "contact.materials.steel.restitution = 2");
     EXPECT_SAYS(refusal("", {"contact.materials.steel.colour=1"}),
                 "contact.materials.steel.colour is unknown");
+    EXPECT_SAYS(refusal("", {"contact.materials.steel.frictoin=0.1"}),
+                "Did you mean contact.materials.steel.friction?");
+    EXPECT_SAYS(refusal("", {"contact.pairs.steel-rubber.frictoin=0.1"}),
+                "Did you mean contact.pairs.steel-rubber.friction?");
     EXPECT_SAYS(refusal("", {"contact.materials.steel=1"}), "is a group of keys");
     EXPECT_SAYS(refusal("", {"grains.adapter=yade-md"}), "yade-md has one material");
     EXPECT_SAYS(refusal("", {"grains.adapter=yade-md"}), "yade-md supports free grains only");
@@ -194,6 +198,9 @@ TEST_F(MovingWalls, WhatMakesNoSenseIsRefused) {
                 "domain.motions.m.kind is missing");
     EXPECT_SAYS(refusal("", with({kind + "circular"})), "Available: constant, harmonic, table.");
     EXPECT_SAYS(refusal("", with({kind + "harmonic"})), "needs domain.motions.m.period");
+    const std::string still = refusal("", with({kind + "harmonic", "domain.motions.m.period=0"}));
+    EXPECT_SAYS(still, "domain.motions.m.period = 0");
+    EXPECT_EQ(still.find("needs domain.motions.m.period"), std::string::npos) << still;
     EXPECT_SAYS(refusal("", with({kind + "constant", "domain.motions.m.period=2"})),
                 "A constant motion has no period");
     EXPECT_SAYS(refusal("", with({kind + "table", "domain.motions.m.table=[0,0,0,0,1,1]"})),

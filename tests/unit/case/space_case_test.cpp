@@ -361,7 +361,11 @@ TEST_F(SpaceCase, SlicesArePlanesInside) {
     EXPECT_EQ(planes("z = 1.5, x=12"), "2 1.5 0 12");
     EXPECT_EQ(planes("y=0 x=3"), "1 0 0 3");
     EXPECT_EQ(planes("y=1e0,x=3"), "1 1 0 3");
-    for (const char* text : {"w = 3", "z", "z = ", "3", "z = 1-2", "z = 1; x = 2", "z = 1 x"})
+    std::string many = "x=3";
+    for (int i = 1; i < 20000; ++i) many += ", x=3";
+    EXPECT_EQ(planes(many).size(), 20000 * std::string("0 3 ").size() - 1);
+    for (const char* text : {"w = 3", "z", "z = ", "3", "z = 1-2", "z = 1; x = 2", "z = 1 x",
+                             "z = 1,, x = 2", "z = 1,", "z = 1x = 2"})
         EXPECT_SAYS(refusal("", with(text)), "an axis and a place in D each") << text;
     EXPECT_SAYS(refusal("", with("x = 3, z = 6.5")), "The plane z = 6.5 is outside the box");
     EXPECT_SAYS(refusal("", with("z = -1")), "The plane z = -1 is outside the box");
