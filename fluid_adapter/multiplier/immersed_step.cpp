@@ -46,6 +46,10 @@ std::unique_ptr<Constraint> make_constraint(FluidField& field, const Settings& s
                                              multiplier_settings(settings, run));
 }
 
+double tolerance_of(const Settings& settings) {
+    return settings.has("coupling.tolerance") ? settings.real("coupling.tolerance") : 0.0;
+}
+
 Impulse contact_impulse(const GrainState& state) {
     return {state.contact_impulse, state.contact_angular_impulse};
 }
@@ -58,7 +62,7 @@ ImmersedStep::ImmersedStep(FluidField& field, const Settings& settings, const Sh
       bodies_(run_, shapes),
       walls_(settings),
       moved_grains_(motions_of(settings, "run.grain_motions")),
-      carries_contacts_(splitting_of(settings).rigid_grains),
+      agreement_{splitting_of(settings).rigid_grains, tolerance_of(settings) * run_.velocity},
       constraint_(make_constraint(field, settings, run_)) {
     for (const ShapeRecord& record : shapes) shapes_.push_back(make_shape(record));
 }
@@ -124,7 +128,7 @@ void ImmersedStep::take_free(const std::vector<GrainState>& states, const Window
         given = weight(states[g], window.step);
         grains_[g].motion_before = twist_of(states[g]);
         note_moved(grains_[g], window);
-        if (!carries_contacts_) continue;
+        if (!agreement_.carries_contacts) continue;
         // J^n of the last window, a prediction: `push` adds the difference to this window's.
         contact_impulses_[g] = contact_impulse(states[g]);
         given += contact_impulses_[g];
@@ -143,13 +147,14 @@ void ImmersedStep::take_constrained(const std::vector<GrainState>& states, const
             grains_[g].motion_before = twist_of(state);
         else if (grains_[g].effective_mass > 0.0)
             grains_[g].motion_before = before_contacts(grains_[g], state, window.step);
-        note_moved(grains_[g], window);
     }
 }
 
-/// q^n - q^{n-1} = dt U^n; where a run begins nothing has moved.
+/// q^n - q^{n-1} = dt U^n, with the velocity that contacts allow; the fluid has its own answer,
+/// which differs by coupling.tolerance at most. So a grain that is slower may be at rest, and would
+/// cross the same cell in every window. Where a run begins nothing has moved.
 void ImmersedStep::note_moved(ImmersedGrain& grain, const Window& window) const {
-    if (window.index == 0) return;
+    if (window.index == 0 || norm(grain.motion_before.velocity) <= agreement_.tolerance) return;
     const Vec3 moved = window.step * grain.motion_before.velocity;
     grain.moved = {moved[0], moved[1], moved[2]};
     grain.stream_gain = window.step * run_.acceleration;

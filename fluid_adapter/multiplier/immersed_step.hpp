@@ -80,6 +80,12 @@ class ImmersedStep {
     const Constraint& constraint() const { return *constraint_; }
 
  private:
+    /// How contacts and fluid come to one velocity.
+    struct Agreement {
+        bool carries_contacts;  // from window to window
+        double tolerance;       // of the velocity [m/s]; 0 where one of them has the last word
+    };
+
     ImmersedGrain immersed(const GrainState& state) const;
     bool moves(const Twist& motion) const;
     Vec3 driving(const GrainState& state, double step) const;
@@ -98,7 +104,7 @@ class ImmersedStep {
     ImmersedBodies bodies_;
     ImmersedWalls walls_;
     std::vector<Moved> moved_grains_;
-    bool carries_contacts_;  // from window to window
+    Agreement agreement_;
 
     std::vector<ImmersedGrain> grains_;  // and walls
     std::size_t states_ = 0;             // of the grains alone

@@ -48,7 +48,7 @@ double mean_torque(const std::string& splitting, double sideways) {
     constexpr int windows = 200, measured = 125;  // in which it crosses eight cells
     for (int n = 0; n < windows; ++n) {
         fluid.advance({n, n * step, step, false});
-        fluid.correct(grains);
+        fluid.let_fall(grains);
         const Kick kick = fluid.impose().kicks.at(0);
         sphere.position = sphere.position + step * sphere.velocity;
         if (n >= windows - measured) torque += kick.multiplier_angular_impulse[2];

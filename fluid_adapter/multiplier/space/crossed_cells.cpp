@@ -18,13 +18,22 @@ double half_chord(double radius, double square) {
 
 const std::vector<CrossedCell>& CrossedCells::find(const std::vector<ImmersedGrain>& grains) {
     crossed_.clear();
-    for (std::size_t g = 0; g < grains.size(); ++g)
-        if (crosses(grains[g])) find_rows(static_cast<int>(g), grains[g]);
+    for (const std::size_t g : crossing(grains)) find_rows(static_cast<int>(g), grains[g]);
     return crossed_;
 }
 
+std::vector<std::size_t> CrossedCells::crossing(const std::vector<ImmersedGrain>& grains) const {
+    std::vector<std::size_t> found;
+    for (std::size_t g = 0; g < grains.size(); ++g)
+        if (crosses(grains[g])) found.push_back(g);
+    std::sort(found.begin(), found.end(),
+              [&](std::size_t a, std::size_t b) { return grains[a].id < grains[b].id; });
+    return found;
+}
+
 bool CrossedCells::crosses(const ImmersedGrain& body) const {
-    if (body.wall || body.moved.isZero(0.0)) return false;
+    // The square of a length that has one may be zero: nothing has moved.
+    if (body.wall || !(body.moved.squaredNorm() > 0.0)) return false;
     // Twice its reach fits into the box, so that no cell is met on two ways.
     for (const int axis : {along, up, across})
         if (grid().cyclic(axis) && grid().length(axis) < 2.0 * (body.radius + body.moved.norm()) +

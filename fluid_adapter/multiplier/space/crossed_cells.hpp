@@ -24,13 +24,15 @@ class CrossedCells {
     CrossedCells(const LayerCells& cells, const CellOwners& owners)
         : cells_(cells), owners_(owners) {}
 
-    /// Of this rank's layers and of those beside them. A cell that another body has now, or had
-    /// before, counts as covered by its new owner and is left by nobody. A sphere that meets itself
-    /// round a cyclic axis crosses none.
+    /// Of this rank's layers and of those beside them, sphere by sphere in the order of their ids.
+    /// A cell that another body has now is left by nobody; one between two spheres whose surfaces
+    /// overlap may be left by both.
     const std::vector<CrossedCell>& find(const std::vector<ImmersedGrain>& grains);
 
-    /// Whether a body may cross cells.
-    bool crosses(const ImmersedGrain& body) const;
+    /// Those that may cross cells, in the order of their ids: what two of them give to a cell adds
+    /// up to the same digits in whatever order grains are sent. Not in a box that is shorter along
+    /// a cyclic axis than a sphere and two cells on either side of it.
+    std::vector<std::size_t> crossing(const std::vector<ImmersedGrain>& grains) const;
 
  private:
     /// A row of cells along x, relative to the sphere: r = (x, y, z) for the cells of any x.
@@ -42,6 +44,7 @@ class CrossedCells {
     void find_rows(int grain, const ImmersedGrain& sphere);
     void find_row(const Row& row, const ImmersedGrain& sphere);
     void take(const Row& row, const ImmersedGrain& sphere, int i);
+    bool crosses(const ImmersedGrain& body) const;
     bool known(int layer) const;
     const CellGrid& grid() const { return *cells_.grid; }
 

@@ -24,8 +24,7 @@ std::vector<Eigen::Vector3d> SlipReturn::play(const std::vector<ImmersedGrain>& 
     shell_.clear();
     for (const CrossedCell& cell : crossed_.find(grains))
         return_from(cell, grains[cell.grain], sums[cell.grain]);
-    for (std::size_t g = 0; g < grains.size(); ++g)
-        if (crossed_.crosses(grains[g])) find_shell(g, grains[g], sums[g]);
+    for (const std::size_t g : crossed_.crossing(grains)) find_shell(g, grains[g], sums[g]);
     field_.sum_over_holders(sums.empty() ? nullptr : sums.front().data(), Sums::SizeAtCompileTime);
     // Only now: what was read is the velocity of before.
     for (const auto& [cell, by] : change_)
@@ -57,11 +56,12 @@ void SlipReturn::return_from(const CrossedCell& cell, const ImmersedGrain& spher
 
 /// Free cells whose centres are less than a cell from the sphere.
 void SlipReturn::find_shell(std::size_t grain, const ImmersedGrain& sphere, Sums& sums) {
-    const double outer = sphere.radius + grid().spacing[0];
+    const double outer = sphere.radius + grid().largest_size(sphere.position, sphere.radius);
+    const Eigen::Vector3d way = sphere.moved.stableNormalized();
     for_rows_within(grid(), sphere.position, outer, [&](int j, int k, double y, double z) {
         const double square = outer * outer - (y * y + z * z);
         if (cells_.owns(j) && square > 0.0)
-            find_shell_row({grain, j, k, {0.0, y, z}, std::sqrt(square)}, sphere, sums);
+            find_shell_row({grain, j, k, {0.0, y, z}, std::sqrt(square), way}, sphere, sums);
     });
 }
 
@@ -74,7 +74,7 @@ void SlipReturn::find_shell_row(const ShellRow& row, const ImmersedGrain& sphere
         if (column < 0 || std::abs(x) >= row.half || owners[column] != CellOwners::none) continue;
         const Eigen::Vector3d arm(x, row.arm.y(), row.arm.z());
         // |n.U| over |U|
-        const double weight = std::abs(arm.dot(sphere.moved)) / (arm.norm() * sphere.moved.norm());
+        const double weight = std::abs(arm.dot(row.way)) / arm.norm();
         const double mass = weight * field_.cell_mass(column, row.j);
         sums[6] += mass;
         sums.tail<3>() += mass * arm;
@@ -132,7 +132,7 @@ Eigen::Vector3d SlipReturn::velocity(const CellPlace& at) const {
 
 Eigen::Vector3d SlipReturn::slip(const ImmersedGrain& sphere, const CellPlace& at,
                                  const Eigen::Vector3d& arm) const {
-    // A sphere that moves with its stream has none, whatever drives it.
+    // What a body force has given to all fluid is none.
     Twist motion = sphere.motion_before;
     motion.velocity = motion.velocity + sphere.stream_gain;
     return velocity(at) - rigid_velocity(motion, arm);

@@ -56,6 +56,7 @@ class SlipReturn {
         int j, k;
         Eigen::Vector3d arm;  // without x
         double half;
+        Eigen::Vector3d way;  // U/|U|
     };
 
     /// A neighbour, and its part of all.

@@ -92,6 +92,21 @@ TEST(ImmersedStep, AGrainByItselfNeedsOneRound) {
     EXPECT_LT(largest_mismatch(scene.five.responses()), 1e-9);
 }
 
+// Of a grain slower than what contacts and fluid may differ by, nobody knows that it moves.
+TEST(ImmersedStep, GrainsThatMoveHaveCrossedCells) {
+    Settings coupled = settings();
+    coupled.set("coupling.tolerance", 1e-3);
+    MemoryField field(96, 96, Side::wall);
+    ImmersedStep five(field, coupled, {{"disc", {}}});
+    const std::vector<GrainState> grains = {grain(1, 1.5, 2.0, {0.1, -0.5, 0.0}),
+                                            grain(2, 3.6, 2.0, {0.0, 0.9e-3, 0.0})};
+    five.take_free(grains, {1, step, step});
+    EXPECT_EQ(five.grains()[0].moved, Eigen::Vector3d(0.1 * step, -0.5 * step, 0.0));
+    EXPECT_EQ(five.grains()[1].moved, Eigen::Vector3d::Zero());
+    five.take_free(grains, window);  // the first of the run
+    EXPECT_EQ(five.grains()[0].moved, Eigen::Vector3d::Zero());
+}
+
 TEST(ImmersedStep, NeighboursAgreeWithinTheToleranceAfterAFewRounds) {
     Scene scene;
     scene.five.take_free(neighbours(), window);

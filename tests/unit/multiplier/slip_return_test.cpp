@@ -88,6 +88,18 @@ TEST(CrossedCells, OfASphereThatMeetsItselfThereAreNone) {
     EXPECT_TRUE(crossed.find(grains).empty());
 }
 
+TEST(CrossedCells, OfALengthWhoseSquareIsZeroThereAreNone) {
+    SpaceField field(box, Side::cyclic);
+    std::vector<ImmersedGrain> grains{sphere(1, {1.53, 1.54, 1.56})};
+    SphereCells cells(field.layers());
+    cells.find(grains);
+    const CrossedCells crossed(field.layers(), cells.owners());
+    grains[0].moved = {1e-170, 0.0, 0.0};
+    EXPECT_TRUE(crossed.crossing(grains).empty());
+    grains[0].moved = {1e-150, 0.0, 0.0};
+    EXPECT_EQ(crossed.crossing(grains).size(), 1u);
+}
+
 /// A part of the layers, which knows those of the other part beside its own. What is to be summed
 /// over the parts is noted at first; with the sums of all in `total` it is they that are returned.
 class PartOfField final : public SpaceField {
@@ -253,6 +265,23 @@ TEST(SlipReturn, OfFluidThatMovesWithTheSphereIsNothing) {
     for (int axis = 0; axis < 3; ++axis)
         for (int c = 0; c < field.owned_cells(); ++c)
             ASSERT_NEAR(field.velocity(axis)[c], before.velocity(axis)[c], 1e-14);
+}
+
+/// Free cells beside two spheres get something from both.
+TEST(SlipReturn, IsTheSameInWhateverOrderGrainsAreSent) {
+    SpaceField field(box, Side::cyclic);
+    field.fill_randomly(5);
+    SpaceField turned = field;
+    const std::vector<ImmersedGrain> grains = moving();
+    const std::vector<ImmersedGrain> backwards(grains.rbegin(), grains.rend());
+    const std::vector<Eigen::Vector3d> given = play(field, grains);
+    std::vector<Eigen::Vector3d> given_backwards = play(turned, backwards);
+    std::reverse(given_backwards.begin(), given_backwards.end());
+    EXPECT_EQ(given, given_backwards);
+    EXPECT_GT(given[0].norm(), 1e-4);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int c = 0; c < field.owned_cells(); ++c)
+            ASSERT_EQ(field.velocity(axis)[c], turned.velocity(axis)[c]);
 }
 
 TEST(SlipReturn, IsTheSameOnRanksOfLayers) {
