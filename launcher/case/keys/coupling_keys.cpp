@@ -10,7 +10,7 @@ namespace {
 /// The schemes of hub/schemes with a fluid, and one that stands for them.
 std::vector<Choice> scheme_choices() {
     std::vector<Choice> choices = {
-        {"auto", "joint where the grains' adapter can, otherwise split"}};
+        {"auto", "joint with contact dynamics, split with springs and with programs of your own"}};
     for (const SchemeEntry& scheme : scheme_list())
         if (!scheme.fluid.empty()) choices.push_back({scheme.name, scheme.help});
     return choices;

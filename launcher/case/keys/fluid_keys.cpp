@@ -441,7 +441,7 @@ std::vector<KeySpec> flow_keys() {
          .fallback = "[0, 0]",
          .help = "uniform body force on the fluid over rho_f, along cyclic sides: minus the "
                  "gradient of the mean pressure; part of the force on a grain",
-         .allowed = "A list of two numbers.",
+         .allowed = "A list of two numbers; with dimension: 3 of three.",
          .remedy = "Write for example acceleration: [0.1, 0].",
          .idle = without_fluid,
          .in_space = {.entries = 3,
