@@ -124,6 +124,11 @@ PlacedCase place(const Settings& settings, const CaseEntries& entries,
     return placed;
 }
 
+bool names_copy(const std::string& key) {
+    return key == "grains.file" || key == "domain.walls_file" || key == "grains.script" ||
+           key == "fluid.functions";
+}
+
 void name_copies(Settings& settings) {
     if (settings.has("grains.file")) settings.set("grains.file", std::string(copied_grains));
     if (settings.has("domain.walls_file"))

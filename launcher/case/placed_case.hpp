@@ -34,4 +34,7 @@ PlacedCase place(const Settings& settings, const CaseEntries& entries,
 inline constexpr auto copied_grains = "grains/initial.csv";
 void name_copies(Settings& settings);
 
+/// Whether the value of a key is a file that the run folder has a copy of.
+bool names_copy(const std::string& key);
+
 }  // namespace turbidite

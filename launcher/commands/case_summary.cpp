@@ -9,9 +9,9 @@
 #include "coupler/keys/key_value.hpp"
 #include "coupler/protocol/scene/mesh_rows.hpp"
 #include "launcher/case/files/command_words.hpp"
-#include "launcher/case/forecast/courant_forecast.hpp"
 #include "launcher/case/forecast/disk_cost.hpp"
 #include "launcher/case/forecast/mesh_cost.hpp"
+#include "launcher/case/forecast/remarks.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
 
@@ -119,16 +119,15 @@ std::string case_summary(const ResolvedCase& resolved) {
     text += command_line(settings);
     text += fluid_line(resolved);
     text += functions_line(resolved.functions);
-    text += fmt::format("  time: {} windows of {} t_c, t_c = {:.4g}, u_c = {:.4g}\n",
+    const bool in_si = is(settings, "scales.kind", "physical");
+    text += fmt::format("  time: {} windows of {} t_c, t_c = {:.4g}{}, u_c = {:.4g}{}\n",
                         settings.integer("run.windows"), settings.text("time.step"),
-                        resolved.scales.time, resolved.scales.velocity);
+                        resolved.scales.time, in_si ? " s" : "", resolved.scales.velocity,
+                        in_si ? " m/s" : "");
     text += forecast_line(resolved);
     text += md_line(settings);
     text += checkpoint_line(settings);
-    for (const std::string& warning :
-         {courant_warning(resolved), ranks_warning(resolved), grains_ranks_warning(resolved)})
-        if (!warning.empty()) text += "  warning: " + warning + "\n";
-    for (const std::string& note : resolved.notes) text += "  note: " + note + "\n";
+    for (const std::string& remark : remarks_of(resolved)) text += "  " + remark + "\n";
     return text;
 }
 

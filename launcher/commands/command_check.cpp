@@ -36,7 +36,8 @@ int check_study(const CheckOptions& options) {
         fmt::print("  {:>7}  {}\n", rough_time(run.seconds), run.path());
         all.push_back(&run);
     }
-    fmt::print("{}: {} runs, {}\nvalid\n", study.name, plan.size(), forecast_text(all));
+    fmt::print("{}: {} runs, {}\n{}valid\n", study.name, plan.size(), forecast_text(all),
+               for_stdout(remarks_text(plan)));
     return static_cast<int>(ExitCode::done);
 }
 

@@ -23,8 +23,11 @@ struct NewOptions {
 
 int write_new(NewOptions options) {
     const std::filesystem::path shipped = case_named(options.like, find_programs());
-    if (!std::filesystem::exists(shipped))
-        throw Failure(ExitCode::bad_input, "turbidite: there is no file " + shipped.string());
+    if (!std::filesystem::is_regular_file(shipped))
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("turbidite: there is no file {}\n  --like names a shipped case "
+                                  "or study, or the file of one. Exit code 2.",
+                                  shipped.string()));
     if (!options.file.has_filename())
         throw Failure(ExitCode::bad_input,
                       fmt::format("turbidite: new \"{}\" names no file\n  Give a name, as in "

@@ -362,7 +362,7 @@ int run_study(const StudyOptions& options) {
         fmt::format("{}: {} {}, {} of them done, folder {}{}\n", study.name, plan.size(),
                     plan.size() == 1 ? "run" : "runs", plan.size() - missing.size(), out.string(),
                     missing.empty() ? "" : ", to do: " + forecast_text(missing));
-    fmt::print("{}", for_stdout(text));
+    fmt::print("{}", for_stdout(text + remarks_text(plan)));
     if (!options.again) tell_kept(plan, out);
     tell_of_another(study.command, out);
     if (const std::string lack = lack_of_disk(predicted_disk(missing), out); !lack.empty())

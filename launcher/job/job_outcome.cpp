@@ -15,6 +15,7 @@
 #include "coupler/protocol/files/run_files.hpp"
 #include "coupler/protocol/received.hpp"
 #include "launcher/job/folder/run_json.hpp"
+#include "launcher/job/launch_line.hpp"
 
 namespace turbidite {
 namespace {
@@ -203,7 +204,7 @@ std::string how_to_go_on(const RunFolder& folder, ExitCode code) {
                "docs/running.md, \"After exit code 6\".\n";
     if (!std::filesystem::exists(folder.checkpoints())) return "";
     return fmt::format("Go on from the last checkpoint: turbidite resume {}\n",
-                       folder.root.string());
+                       shell_line({folder.root.string()}));
 }
 
 }  // namespace

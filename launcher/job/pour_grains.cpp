@@ -40,7 +40,9 @@ double energy_at_rest(double height, double tolerance) {
 }
 
 fs::path cache_folder() {
-    const char *given = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+    const char *own = std::getenv("TURBIDITE_CACHE"), *given = std::getenv("XDG_CACHE_HOME"),
+               *home = std::getenv("HOME");
+    if (own != nullptr && *own != '\0') return fs::path(own) / "poured";
     if (given != nullptr && *given != '\0') return fs::path(given) / "turbidite" / "poured";
     if (home != nullptr && *home != '\0') return fs::path(home) / ".cache" / "turbidite" / "poured";
     return fs::path("runs") / "poured";

@@ -14,6 +14,7 @@
 #include "coupler/protocol/run_values.hpp"
 #include "fluid_adapter/foam_case/fluid_case.hpp"
 #include "launcher/case/grains/grains_adapters.hpp"
+#include "launcher/case/placed_case.hpp"
 #include "launcher/job/folder/openfoam_path.hpp"
 #include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/folder/run_on_disk.hpp"
@@ -101,7 +102,11 @@ bool is_given(const std::string& key, const std::vector<std::string>& overrides)
 std::string forbidden_changes(const Settings& now, const Settings& then, const char* of_then,
                               const std::vector<std::string>& overrides) {
     std::string lines;
+    for (const std::string& text : overrides)
+        if (const std::string key = text.substr(0, text.find('=')); names_copy(key))
+            lines += fmt::format("\n  {} is given, and the run has its copy of that file", key);
     for (const auto& [key, value] : now.entries()) {
+        if (names_copy(key)) continue;
         const bool known = then.has(key);
         if (may_change(key) || (known ? value == then.text(key) : !is_given(key, overrides)))
             continue;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -112,7 +113,7 @@ void refuse_swept_before(const YAML::Node& node, const std::string& key, const S
 std::optional<double> number_in(const std::string& text) {
     char* end = nullptr;
     const double number = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0') return std::nullopt;
+    if (text.empty() || *end != '\0' || !std::isfinite(number)) return std::nullopt;
     return number;
 }
 
@@ -200,6 +201,11 @@ void refuse_swept_in_variants(const YAML::Node& node, const StudyPart& part,
                                                    part.name, variant.text, swept.key),
                                        "A key of a run has one value.",
                                        "Take it out of the variants, or of the sweep.");
+}
+
+bool fits_a_folder(char c) {
+    const auto letter = static_cast<unsigned char>(c);  // of UTF-8 above 127
+    return std::isalnum(letter) != 0 || letter > 127 || std::string("._+-").find(c) < 4;
 }
 
 StudyPart read_part(const std::string& name, const YAML::Node& node, const fs::path& folder,
@@ -292,10 +298,18 @@ void read_parts(const YAML::Node& parts, const fs::path& folder, Study& study,
     }
 }
 
+/// Of the file, as a name of a folder: spaces and the like become underscores.
+std::string name_of(const fs::path& file) {
+    std::string name = file.stem().string();
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return !fits_a_folder(c); }, '_');
+    return name;
+}
+
 Study study_of(const YAML::Node& root, const fs::path& file) {
     Complaints complaints(file.filename().string());
     Study study;
-    study.name = file.stem().string();
+    study.name = name_of(file);
     study.out = out_of(root["out"], study.name, complaints);
     study.figures = figures_of(root["figures"], complaints);
     const YAML::Node parts = root["parts"];
@@ -328,11 +342,7 @@ bool has_one_of(const fs::path& file, const std::vector<std::string>& keys) {
 }  // namespace
 
 bool is_folder_name(const std::string& name) {
-    const auto plain = [](char c) {
-        const auto letter = static_cast<unsigned char>(c);  // of UTF-8 above 127
-        return std::isalnum(letter) != 0 || letter > 127 || std::string("._+-").find(c) < 4;
-    };
-    return !name.empty() && name[0] != '.' && std::all_of(name.begin(), name.end(), plain);
+    return !name.empty() && name[0] != '.' && std::all_of(name.begin(), name.end(), fits_a_folder);
 }
 
 bool is_study(const fs::path& file) {

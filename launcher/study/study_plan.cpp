@@ -9,6 +9,7 @@
 
 #include "launcher/case/files/case_entries.hpp"
 #include "launcher/case/forecast/disk_cost.hpp"
+#include "launcher/case/forecast/remarks.hpp"
 #include "launcher/case/forecast/run_cost.hpp"
 #include "launcher/case/grains/packing/pouring.hpp"
 
@@ -28,6 +29,11 @@ std::string file_name(const std::string& text) {
     }
     while (!result.empty() && result.back() == '_') result.pop_back();
     return result;
+}
+
+std::string without_digits(std::string text) {
+    std::erase_if(text, [](unsigned char c) { return std::isdigit(c) || c == '.'; });
+    return text;
 }
 
 std::string last_word(const std::string& key) {
@@ -211,6 +217,7 @@ std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::st
             run.poured = is_poured(resolved.settings);
             run.yaml = resolved.yaml;
             run.given = resolved.given;
+            run.remarks = remarks_of(resolved);
             run.seconds = predicted_seconds(resolved);
             run.disk = predicted_disk(resolved);
         } catch (const CaseRefused& refused) {
@@ -226,6 +233,29 @@ double predicted_disk(const std::vector<const PlannedRun*>& runs) {
     double sum = 0.0;
     for (const PlannedRun* run : runs) sum += run->disk;
     return sum;
+}
+
+std::string remarks_text(const std::vector<PlannedRun>& plan) {
+    struct Told {
+        std::string kind, text, run;
+        int runs;
+    };
+    std::vector<Told> all;
+    for (const PlannedRun& run : plan)
+        for (const std::string& remark : run.remarks) {
+            const std::string kind = without_digits(remark);
+            const auto at = std::find_if(all.begin(), all.end(),
+                                         [&](const Told& told) { return told.kind == kind; });
+            if (at != all.end())
+                ++at->runs;
+            else
+                all.push_back({kind, remark, run.path(), 1});
+        }
+    std::string text;
+    for (const Told& told : all)
+        text += fmt::format("  {}\n    ({} of {} runs; the first is {})\n", told.text, told.runs,
+                            plan.size(), told.run);
+    return text;
 }
 
 std::string forecast_text(const std::vector<const PlannedRun*>& runs) {

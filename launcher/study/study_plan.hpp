@@ -19,12 +19,13 @@ struct PlannedRun {
     std::vector<std::string> overrides;
     /// (swept key, value), "variant" among them; in the order of the axes.
     std::vector<std::pair<std::string, std::string>> values;
-    std::string hash = {};                ///< of the resolved case
-    bool poured = false;                  ///< its grains are to be poured first
-    std::string yaml = {};                ///< the resolved case
-    std::vector<std::string> given = {};  ///< keys that study, case file or command line name
-    double seconds = 0.0;                 ///< predicted (case/run_cost.hpp)
-    double disk = 0.0;                    ///< predicted [GB] (case/disk_cost.hpp)
+    std::string hash = {};                  ///< of the resolved case
+    bool poured = false;                    ///< its grains are to be poured first
+    std::string yaml = {};                  ///< the resolved case
+    std::vector<std::string> given = {};    ///< keys that study, case file or command line name
+    std::vector<std::string> remarks = {};  ///< warnings and notes of the case
+    double seconds = 0.0;                   ///< predicted (case/run_cost.hpp)
+    double disk = 0.0;                      ///< predicted [GB] (case/disk_cost.hpp)
 
     /// "column/compacity-0.785-seed-1": below the study's folder, and in messages.
     std::string path() const { return part + "/" + name; }
@@ -40,6 +41,10 @@ std::vector<PlannedRun> plan_study(const Study& study, const std::vector<std::st
 
 /// Of some runs, one after the other: "roughly 7 h, 52 GB of files".
 std::string forecast_text(const std::vector<const PlannedRun*>& runs);
+
+/// Warnings and notes of all runs, each told once, with the number of runs that it is of; what
+/// differs in numbers alone is told of the first.
+std::string remarks_text(const std::vector<PlannedRun>& plan);
 
 /// Files of some runs, predicted [GB].
 double predicted_disk(const std::vector<const PlannedRun*>& runs);

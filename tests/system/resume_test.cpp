@@ -300,6 +300,9 @@ TEST_F(Resume, WhatCannotGoOnIsRefusedWithTheReason) {
     EXPECT_EQ(other.code, 2);
     EXPECT_SAYS(other.err, "contact.friction is 0.5, in the checkpoint 0.3");
     EXPECT_SAYS(other.err, "These keys may change: time.end, ");
+    const Answer file = turbidite("resume run --set time.end=1 --set grains.file=nowhere.csv");
+    EXPECT_EQ(file.code, 2);
+    EXPECT_SAYS(file.err, "grains.file is given, and the run has its copy of that file");
     const Answer shorter = turbidite("resume run --set time.end=0.2");
     EXPECT_EQ(shorter.code, 2);
     EXPECT_SAYS(shorter.err, "has already done 40 windows, time.end = 0.2 t_c is 16");

@@ -148,9 +148,9 @@ TEST_F(Space, PouredGrainsAreAtRestWhenTheRunBegins) {
     ::unsetenv("XDG_CACHE_HOME");
     EXPECT_SAYS(second.out, "150 grains were poured before");
     // Its line is to be played by a shell, and plays the same packing.
-    ::setenv("XDG_CACHE_HOME", scratch.path().c_str(), 1);
+    ::setenv("TURBIDITE_CACHE", (scratch.path() / "turbidite").c_str(), 1);
     const Answer line = turbidite(poured + " --dry-run --out third");
-    ::unsetenv("XDG_CACHE_HOME");
+    ::unsetenv("TURBIDITE_CACHE");
     EXPECT_EQ(line.out.find("poured"), std::string::npos) << line.out;
     EXPECT_SAYS(line.err, "150 grains were poured before");
     EXPECT_EQ(text(scratch.path() / "third/grains/initial.csv"),

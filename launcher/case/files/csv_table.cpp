@@ -54,11 +54,11 @@ void read_header(CsvTable& table, int line, const std::string& text, const CsvFo
         return table.refuse(line, "has " + separator + " between its columns",
                             "Commas separate columns, and decimals have a point: 0,1.5,2.5.",
                             "Save it so, decimal commas included.");
-    for (const std::string& column : table.columns)
-        if (!has(form.columns, column))
+    for (auto column_at = table.columns.begin(); column_at != table.columns.end(); ++column_at)
+        if (const std::string& column = *column_at; !has(form.columns, column))
             table.refuse(line, fmt::format("column \"{}\" is unknown", column), form.sentence,
                          "Rename or remove it.");
-        else if (std::count(table.columns.begin(), table.columns.end(), column) > 1)
+        else if (std::count(table.columns.begin(), column_at, column) == 1)
             table.refuse(line, fmt::format("column \"{}\" occurs more than once", column),
                          form.sentence, "Keep one.");
     for (const std::string& required : form.required)
@@ -78,6 +78,12 @@ void read_row(CsvTable& table, int line, const std::string& text) {
 }
 
 }  // namespace
+
+bool CsvTable::has_value(const Row& row, const std::string& column) const {
+    const auto at = std::find(columns.begin(), columns.end(), column);
+    return at != columns.end() &&
+           !row.fields[static_cast<std::size_t>(at - columns.begin())].empty();
+}
 
 void CsvTable::refuse(int line, const std::string& fault, const std::string& allowed,
                       const std::string& remedy) {

@@ -80,7 +80,7 @@ void set_material(CsvTable& table, int line, const std::vector<std::string>& mat
 
 void set_motion(CsvTable& table, int line, const std::vector<std::string>& motions,
                 const std::string& text, PlacedGrain& grain) {
-    const bool free = text == "free" || text.empty();  // as pandas writes a missing one
+    const bool free = text == "free";
     grain.prescribed = !free;
     if (free || text == "fixed" || text == "driven") return;
     grain.motion = text;
@@ -134,8 +134,15 @@ void check_turn(CsvTable& table, int line, PlacedGrain& grain) {
         for (double& part : grain.turn) part /= std::sqrt(square);
 }
 
+/// An empty field, as pandas writes a missing one, has what a file without the column has.
+bool may_be_empty(const std::string& column) {
+    return column == "shape" || column == "material" || column == "motion" || column == "radius" ||
+           column == "density";
+}
+
 void set_field(CsvTable& table, int line, const FileWords& words, const std::string& column,
                const std::string& text, PlacedGrain& grain) {
+    if (text.empty() && may_be_empty(column)) return;
     if (column == "shape") return set_shape(table, line, words.forms, text, grain);
     if (column == "material") return set_material(table, line, words.materials, text, grain);
     if (column == "motion") return set_motion(table, line, words.motions, text, grain);
@@ -189,8 +196,7 @@ PlacedGrain grain_of(CsvTable& table, const CsvTable::Row& row, const FileWords&
         set_field(table, row.line, words, table.columns[i], row.fields[i], grain);
     if (forms.dimension == 3) check_turn(table, row.line, grain);
     check_fixed(table, row, grain);
-    const auto& columns = table.columns;
-    if (std::find(columns.begin(), columns.end(), "radius") == columns.end())
+    if (!table.has_value(row, "radius"))
         // Only now, since the default follows from the shape, which may be a later column.
         grain.radius = forms.forms[static_cast<std::size_t>(grain.shape)].radius;
     return grain;

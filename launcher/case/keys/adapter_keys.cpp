@@ -154,6 +154,10 @@ Ruling command_is_one_program(const Settings& s) {
 Ruling ranks_are_supported(const Settings& s) {
     const GrainsAdapter& adapter = grains_adapter(s);
     if (s.integer("grains.ranks") <= adapter.most_ranks) return std::nullopt;
+    if (adapter.most_ranks > 1)
+        return Objection{
+            fmt::format("{} runs on {} ranks at most.", adapter.name, adapter.most_ranks),
+            "Use fewer."};
     return Objection{
         fmt::format("{} runs on one rank in this version.", adapter.name),
         fmt::format("Use 1, or grains.adapter: {}.",

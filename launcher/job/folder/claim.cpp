@@ -8,6 +8,7 @@
 #include "coupler/checkpoint/checkpoint_sets.hpp"
 #include "coupler/protocol/failure.hpp"
 #include "launcher/job/folder/set_aside.hpp"
+#include "launcher/job/launch_line.hpp"
 
 namespace turbidite {
 namespace {
@@ -21,7 +22,7 @@ std::string how_to_go_on(const RunFolder& folder) {
     return fmt::format(
         "`turbidite resume {0}` goes on with it, and so does the line that `turbidite resume {0} "
         "--dry-run` prints.",
-        folder.root.string());
+        shell_line({folder.root.string()}));
 }
 
 void require_beginning(const RunFolder& folder) {

@@ -66,7 +66,28 @@ TEST(PopulationFile, GrainsFollowMotionsByName) {
     EXPECT_SAYS(texts(read("1,1,1,0.5,shake\n").problems), "follows motion shake and has");
 }
 
+// As pandas writes what is missing.
+TEST(PopulationFile, AnEmptyFieldHasWhatAFileWithoutTheColumnHas) {
+    const ScratchFolder folder;
+    const PopulationFile read =
+        read_population_csv(folder.write("g.csv",
+                                         "id,x,y,radius,density,material,shape,motion\n1,1,1,,,,,\n"
+                                         "2,3,1,0.4,2,steel,disc,fixed\n"),
+                            plain_discs(), {"default", "steel"}, {});
+    ASSERT_EQ(texts(read.problems), "");
+    EXPECT_EQ(read.grains[0].radius, 0.5);
+    EXPECT_FALSE(read.grains[0].density);
+    EXPECT_EQ(read.grains[0].material, 0);
+    EXPECT_FALSE(read.grains[0].prescribed);
+    EXPECT_EQ(read.grains[1].radius, 0.4);
+    EXPECT_EQ(read.grains[1].material, 1);
+    EXPECT_SAYS(read_errors("id,x,y,spin\n0,1,1,\n"), "line 2: spin = ");
+}
+
 TEST(PopulationFile, ErrorsNameTheLine) {
+    const std::string twice = read_errors("id,x,y,x\n0,1,1,1\n");
+    EXPECT_SAYS(twice, "column \"x\" occurs more than once");
+    EXPECT_EQ(twice.find("more than once"), twice.rfind("more than once")) << twice;
     EXPECT_SAYS(read_errors("id,x,y\n0,1,1\n1,2\n"), "grains.csv line 3: 2 values in \"1,2\"");
     EXPECT_SAYS(read_errors("id,x,y\n0,one,1\n"), "grains.csv line 2: x = one");
     EXPECT_SAYS(read_errors("id,x,y\n0,nan,1\n"), "grains.csv line 2: x = nan");

@@ -326,6 +326,29 @@ TEST_F(StudyTest, AKeyIsSweptOnce) {
     EXPECT_EQ(plan("{case: column.yaml, sweep: {contact.friction: [0.1, 0.2]}}").size(), 2u);
 }
 
+TEST_F(StudyTest, ValuesThatAreNoNumbersAreNotEqual) {
+    const std::string text = refusal("{case: column.yaml, sweep: {contact.friction: [0.1, nan]}}");
+    EXPECT_SAYS(text, "contact.friction = nan");
+    EXPECT_EQ(text.find("are one value"), std::string::npos) << text;
+}
+
+// A sweep of a key that changes nothing would look like a result.
+TEST_F(StudyTest, NotesOfItsRunsAreToldOnce) {
+    const std::string text =
+        remarks_text(plan("{case: column.yaml, set: {fluid.enabled: false}, "
+                          "sweep: {fluid.reynolds: [1, 2, 5]}}"));
+    EXPECT_SAYS(text, "note: fluid.reynolds");
+    EXPECT_SAYS(text, "(3 of 3 runs; the first is study/reynolds-1)");
+    EXPECT_EQ(text.find("fluid.reynolds"), text.rfind("fluid.reynolds")) << text;
+}
+
+TEST_F(StudyTest, ANameWithASpaceBecomesAFolder) {
+    scratch.write("my study.yaml", "{case: column.yaml, sweep: {random.seed: [1, 2]}}");
+    const Study study = read_study(scratch.path() / "my study.yaml");
+    EXPECT_EQ(study.name, "my_study");
+    EXPECT_EQ(plan_study(study, {}).front().path(), "my_study/seed-1");
+}
+
 TEST_F(StudyTest, AValueListedTwiceIsRefused) {
     EXPECT_SAYS(refusal("{case: column.yaml, sweep: {random.seed: [1, 2, 1]}}"),
                 "two runs study/seed-1");

@@ -17,12 +17,12 @@ namespace {
 constexpr double clamping_distance = 1e-3;  // in compacity, as in the plane
 
 /// More cells than any packing has: a box of 1e300 D is refused elsewhere.
-constexpr double most_cells = 1e9;
+constexpr double most_lattice_cells = 1e9;
 
 /// Cells along an axis of which the first site is inside.
 std::int64_t cells_along(double length, double radius, double edge) {
     const double cells = std::floor((length - 2.0 * radius + fit_rounding) / edge) + 1.0;
-    return static_cast<std::int64_t>(std::clamp(cells, 0.0, most_cells));
+    return static_cast<std::int64_t>(std::clamp(cells, 0.0, most_lattice_cells));
 }
 
 PlacedGrain sphere_at(const Vec3& place, double radius, std::size_t index) {
