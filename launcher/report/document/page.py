@@ -20,6 +20,7 @@ from document.typeset import typeset
 
 RESOLUTION = 120  # dots per inch
 PROGRAM = 'turbidite'  # `Software` in the pictures of a page
+BEGINNING = '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'  # of every page, by which it is known
 CONTENTS = object()  # stands in the parts of a page where its contents go
 
 
@@ -130,8 +131,7 @@ class Page:
         title = html.escape(self.title)
         links = ' '.join(f'<a href="#{place}">{typeset(text)}</a>' for place, text in self.places)
         body = ''.join(f'<nav>{links}</nav>' if part is CONTENTS else part for part in self.parts)
-        return ('<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
-                '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        return (BEGINNING + '<meta name="viewport" content="width=device-width, initial-scale=1">'
                 f'<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>'
                 + body + '</body></html>\n')
 
