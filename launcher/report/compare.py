@@ -25,13 +25,10 @@ import seeds
 import surface
 from differences import common_span, difference
 from measured import MEASURED
+from document.own_files import Refusal, is_page, require_own
 from document.page import write_whole
 from document.working import Progress
 from head import facts
-
-
-class Refusal(Exception):
-    """An error message for the user; exit code 2."""
 
 
 @dataclass
@@ -232,11 +229,9 @@ def as_json(comparison):
 
 def check_files(page_file):
     """Tables beside a page that is not there yet are somebody else's: those of a run, say."""
-    if page_file.exists():
-        return
-    for file in (page_file.with_suffix('.csv'), page_file.with_suffix('.json')):
-        if file.exists():
-            raise Refusal(f'--out = {page_file}: {file} would be overwritten. Choose another name.')
+    there = page_file.exists()
+    require_own({page_file: is_page(page_file, compare_page.TITLE), page_file.with_suffix('.csv'): there,
+                 page_file.with_suffix('.json'): there}, f'Choose another name than --out = {page_file}.')
 
 
 def compare(page_file, folders, each=False):

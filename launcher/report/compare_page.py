@@ -18,6 +18,7 @@ from document.typeset import Code
 from head import facts
 from seeds import SEED
 
+TITLE = 'Comparison of '  # of the page, by which it is known
 LONGEST_LABEL = 24  # characters; legends must not hide the curves
 MOST_LABELS = 6
 SVG_DASHES = ('', '10 4', '10 3 2 3', '2 3', '12 3 2 3 2 3', '16 5', '5 5')
@@ -40,7 +41,7 @@ def span(bounds):
 def make_page(comparison, folder, command):
     """`folder` is that of the page, from which it links to the reports of the runs."""
     members = comparison.members
-    page = Page('Comparison of ' + ', '.join(member.name for member in members))
+    page = Page(TITLE + ', '.join(member.name for member in members))
     add_groups(page, members)
     page.links(report_links([run for member in members for run in member.runs], folder))
     page.paragraph(facts.units_in_words(members[0].data), 'note')

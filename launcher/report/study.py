@@ -25,6 +25,7 @@ import member_pictures
 import run_data
 import seeds
 from measured import DRAWN, MEASURED, table
+from document.own_files import Refusal, beginning, is_page, require_own
 from document.page import Page, write_whole
 from document.typeset import Code
 from head import facts
@@ -32,6 +33,8 @@ from paper import add as paper
 from paper.selection import is_done
 from document.working import Progress
 
+TITLE = 'Study '  # of the page, by which it is known
+COLUMNS = ['part', 'run']  # the first of the table, by which it is known
 MOST_PICTURES = 12
 PICTURE_WIDTH = 280  # pixels
 FIGURE_SETS = {'paper': paper.add}  # by the study's `figures`
@@ -64,7 +67,7 @@ def as_csv(runs):
     keys = swept_keys(runs)
     text = io.StringIO()
     rows = csv.writer(text, lineterminator='\n')
-    rows.writerow(['part', 'run', *keys, 'status', *[m.name for m in MEASURED], 'error'])
+    rows.writerow([*COLUMNS, *keys, 'status', *[m.name for m in MEASURED], 'error'])
     for run in runs:
         values = [m.of(run.data) if run.data.history is not None else None for m in MEASURED]
         rows.writerow([run.entry['part'], run.entry['name'], *[run.entry['values'].get(key, '') for key in keys],
@@ -76,7 +79,7 @@ def as_csv(runs):
 # --- the page -----------------------------------------------------------------------------------------
 
 def make_page(title, runs, command=''):
-    page = Page(f'Study {title}')
+    page = Page(TITLE + title)
     page.paragraph(progress(runs), 'verdict ' + ('holds' if all(run.entry['status'] == 'done' for run in runs) else 'doubt'))
     failed = [[Code(run.entry['folder']), f': {run.entry["status"]}. {run.entry["error"]}'] for run in runs
               if run.entry['status'] not in ('done', 'missing') or run.entry['error']]
@@ -233,13 +236,21 @@ def draw_line(axes, i, label, points, measured):
                   color=f'#{compare_page.colour_of(i)}', linestyle=curves.dash(i), label=label or None, linewidth=1.2)
 
 
-def main(arguments):
-    if len(arguments) != 2:
-        print('usage: study.py FOLDER   (of `turbidite study`)', file=sys.stderr)
-        return 2
-    folder = Path(arguments[1])
+def check_files(folder, figures):
+    """What somebody keeps under the names of the results is not replaced by them."""
+    page, table, statements = (folder / name for name in ('study.html', 'study.csv', 'paper.md'))
+    files = {page: is_page(page, TITLE), table: beginning(table).startswith(','.join(COLUMNS) + ',')}
+    if figures == 'paper':
+        files[statements] = beginning(statements).startswith(paper.TITLE)
+    require_own(files, 'It is not of a study. Rename it, and give the same line again: the runs are kept, and page and '
+                'table are written.')
+
+
+def write_results(folder):
+    """True if everything was written."""
     record, runs = load(folder)
     figures = record.get('figures', '')
+    check_files(folder, figures)
     working = Progress('study')
     working('tables and figures')
     page = make_page(record['study'], runs, shlex.join(record.get('command', [])))
@@ -248,7 +259,18 @@ def main(arguments):
     written += [page.write_pictures(folder / 'pictures'),
                 write_whole(folder / 'study.csv', as_csv(runs)),
                 write_whole(folder / 'study.html', page.text())]
-    return 0 if all(written) else 4
+    return all(written)
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        print('usage: study.py FOLDER   (of `turbidite study`)', file=sys.stderr)
+        return 2
+    try:
+        return 0 if write_results(Path(arguments[1])) else 4
+    except Refusal as refusal:
+        print(f'turbidite study: {refusal}', file=sys.stderr)
+        return 2
 
 
 if __name__ == '__main__':

@@ -12,12 +12,15 @@ from contextlib import contextmanager
 from urllib.parse import quote
 
 import matplotlib.pyplot as plt
+from PIL import Image
 
 from document.alt_text import described
 from document.style import STYLE
 from document.typeset import typeset
 
 RESOLUTION = 120  # dots per inch
+PROGRAM = 'turbidite'  # `Software` in the pictures of a page
+BEGINNING = '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'  # of every page, by which it is known
 CONTENTS = object()  # stands in the parts of a page where its contents go
 
 
@@ -91,7 +94,8 @@ class Page:
     def file_only(self, figure, name):
         """A PNG beside the page that is not part of it."""
         buffer = io.BytesIO()
-        figure.savefig(buffer, format='png', dpi=RESOLUTION, pil_kwargs={'compress_level': 4})
+        figure.savefig(buffer, format='png', dpi=RESOLUTION, pil_kwargs={'compress_level': 4},
+                       metadata={'Software': PROGRAM, 'Title': name})
         plt.close(figure)
         self.pictures[name] = buffer.getvalue()
 
@@ -127,8 +131,7 @@ class Page:
         title = html.escape(self.title)
         links = ' '.join(f'<a href="#{place}">{typeset(text)}</a>' for place, text in self.places)
         body = ''.join(f'<nav>{links}</nav>' if part is CONTENTS else part for part in self.parts)
-        return ('<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
-                '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        return (BEGINNING + '<meta name="viewport" content="width=device-width, initial-scale=1">'
                 f'<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>'
                 + body + '</body></html>\n')
 
@@ -141,7 +144,7 @@ class Page:
             print(f'cannot write {folder}: {error.strerror}', file=sys.stderr)
             return False
         for old in folder.glob('*.png'):
-            if old.stem not in self.pictures:
+            if old.stem not in self.pictures and is_picture_of_a_page(old):
                 old.unlink()
         return all([write_whole(folder / f'{name}.png', png) for name, png in self.pictures.items()])
 
@@ -149,6 +152,17 @@ class Page:
 def address_of(path):
     """Of a file beside the page, for a link."""
     return html.escape(quote(os.fsencode(path)))
+
+
+def is_picture_of_a_page(path):
+    """By what the file says. A copy under another name is the user's own, as is one that says nothing: versions that
+    wrote no name cannot be told from a user's matplotlib."""
+    try:
+        with Image.open(path) as picture:
+            said = picture.info
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):  # damaged, a folder, somebody's large one
+        return False
+    return said.get('Software') == PROGRAM and said.get('Title') == path.stem
 
 
 def write_whole(path, content):

@@ -44,7 +44,10 @@ class Form:
     recorded: dict = None   # commit, date, processor [s], memory [MB]; None: never
 
     def arguments(self):
-        return [word for key, value in self.overrides.items() for word in ('--set', f'{key}={as_yaml(value)}')]
+        return [word for text in self.sets() for word in ('--set', text)]
+
+    def sets(self):
+        return [f'{key}={as_yaml(value)}' for key, value in self.overrides.items()]
 
 
 @dataclass

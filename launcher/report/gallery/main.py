@@ -129,12 +129,48 @@ def play(gallery, name):
         print(f'{name}: it did not end as it should: exit code {played.code}', file=sys.stderr)
         return played.code if played.code > 0 else 128 - played.code  # negative: the signal that killed it
     require_done(form, folder)
+    if options.judge:
+        require_of_its_form(gallery, name, form)
     failed = judge(form, folder)
     print(f'{name}: {len(form.expected) - failed} of {len(form.expected)} numbers hold; {told_spent(played)}')
     if options.record and not failed:
         require_of_its_commit(form, folder, played.source)
         record(gallery, name, played)
     return 1 if failed else 0
+
+
+def require_of_its_form(gallery, name, form):
+    """Its keys may have been changed since, or somebody has played or resumed with others in the folder."""
+    folder, says = gallery.folder(name), dict(map(split, form.sets()))
+    played = list(map(split, played_sets(gallery, name, form)))
+    lacking = [(key, None) for key in says if key not in dict(played)]
+    for key, value in [*played, *lacking]:
+        if value != says.get(key):
+            raise entries.Wrong(f'{name}: {folder} was played {with_key(key, value)}, and the {gallery.form} form is '
+                                f'{with_key(key, says.get(key))}. Play it again without --judge.')
+
+
+def played_sets(gallery, name, form):
+    """`key=value` of a case, or of a study, whose runs have keys of their own, with which they are begun."""
+    folder, runs = gallery.folder(name), judged(form, gallery.folder(name))
+    resumed = [text for run in runs for text in run.resumed_with()]
+    if not gallery.is_study(name):
+        return [text for run in runs for text in run.begun_with()] + resumed
+    words = runs_there.study_command(folder)
+    quick = gallery.takes_quick(name)
+    if words and ('--quick' in words) != quick:
+        raise entries.Wrong(f'{name}: {folder} was played {"without" if quick else "with"} --quick, and the '
+                            f'{gallery.form} form is {"with" if quick else "without"} it. Play it again without --judge.')
+    return [text for flag, text in zip(words, words[1:]) if flag == '--set'] + resumed
+
+
+def split(text):
+    key, _, value = text.partition('=')
+    return key.strip(), value.strip()
+
+
+def with_key(key, value):
+    return f'without {key}' if value is None else f'with {key} = {value}'
 
 
 def require_done(form, folder):

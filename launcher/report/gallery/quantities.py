@@ -36,6 +36,15 @@ def mean(time, values, begin, end):
     return values[inside].mean()
 
 
+def require_rows_until(time, end):
+    """A mean until then is of another time where the run has ended before. Where the next row would be later than that,
+    none is lacking: rows need not fall on it."""
+    interval = np.median(np.diff(time)) if len(time) > 1 else 0.0
+    rounding = 1e-6 * max(1.0, abs(end))
+    if time[-1] < end - rounding and time[-1] + interval < end + rounding:
+        raise ValueError(f'the last row is at {time[-1]:g} t_c, before {end:g}')
+
+
 # Name: (function of times and values, how many times it takes).
 CALLS = {
     'end': (None, 0),  # of the last row, which may be empty
@@ -69,6 +78,8 @@ def of_column(run, column, measure, times):
     if measure is None:
         return run.end(column)
     time, values = run.column(column)
+    if measure is mean and len(values):
+        require_rows_until(run.history['time'], times[1])
     return float(measure(time, values, *times)) if len(values) else None
 
 

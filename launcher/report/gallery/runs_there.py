@@ -22,6 +22,13 @@ class RunThere:
         told = self.record.get('versions') or {}
         return told.get('turbidite', ''), told.get('commit', '')
 
+    def begun_with(self):
+        """As `key=value`."""
+        return self.record.get('overrides') or []
+
+    def resumed_with(self):
+        return [text for part in self.record.get('parts', []) for text in part.get('overrides') or []]
+
     def is_held(self):
         """Whether a process plays it: its file `lock` is locked as long as that lives."""
         try:
@@ -41,6 +48,14 @@ def run_there(folder):
         return RunThere(folder, json.loads((folder / 'run.json').read_text()))
     except (OSError, ValueError):
         return RunThere(folder, {})
+
+
+def study_command(folder):
+    """The words that played the study last; none where nothing says it."""
+    try:
+        return json.loads((folder / 'study.json').read_text()).get('command', [])
+    except (OSError, ValueError):
+        return []
 
 
 def runs_of_study(folder):

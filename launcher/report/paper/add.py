@@ -4,6 +4,7 @@ from document.page import write_whole
 from paper import figures, statements
 from paper.selection import PaperRuns
 
+TITLE = '# Topin et al. 2011, figure by figure'  # of the Markdown, by which it is known
 HEADER = ['section', 'statement', 'paper', 'ours, mean (smallest to largest)', 'verdict', 'mesh and pores',
           'part of the study']
 
@@ -26,7 +27,7 @@ def name_of(number):
 
 
 def markdown(table, made):
-    lines = ['# Topin et al. 2011, figure by figure', '', '`turbidite study configs/paper.yaml` wrote this file.', '',
+    lines = [TITLE, '', '`turbidite study configs/paper.yaml` wrote this file.', '',
              '| ' + ' | '.join(HEADER) + ' |', '|' + '---|' * len(HEADER)]
     lines += ['| ' + ' | '.join(cell.replace('|', r'\|') for cell in row) + ' |' for row in table]
     for number, caption in made:

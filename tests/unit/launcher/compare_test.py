@@ -412,7 +412,9 @@ class Compare(RunFolderTest):
     def test_tables_of_others_stay(self):
         for name in ('a', 'b'):
             self.write_run(name, 1)
-        for page, file in (('a/run.html', 'a/run.json'), ('b/history.html', 'b/history.csv')):
+        self.write('notes.html', '<!DOCTYPE html><title>Comparison of my notes</title>')
+        for page, file in (('a/run.html', 'a/run.json'), ('b/history.html', 'b/history.csv'),
+                           ('notes.html', 'notes.html')):
             before = (self.folder / file).read_bytes()
             with self.assertRaisesRegex(compare.Refusal, 'would be overwritten'):
                 compare.compare(self.folder / page, [self.folder / 'a', self.folder / 'b'])

@@ -50,12 +50,16 @@ version = pathlib.Path({made_up!r}).with_name('version').read_text().split()
 if sys.argv[1] == '--version':
     sys.exit(print('turbidite', version[0], f'(commit {{version[1]}})' if version[1:] else ''))
 made_up, out = pathlib.Path({made_up!r}), pathlib.Path(sys.argv[sys.argv.index('--out') + 1])
+sets = [text for flag, text in zip(sys.argv, sys.argv[1:]) if flag == '--set']
+if sys.argv[1] == 'study':
+    (out / 'study.json').write_text(json.dumps({{'command': ['turbidite', *sys.argv[1:]]}}))
 for folder in [file.parent for file in made_up.glob('*/*/run.json')] if sys.argv[1] == 'study' else [made_up]:
     to = out / folder.relative_to(made_up)
     if sys.argv[1] != 'study' or not (to / 'run.json').exists():
         shutil.rmtree(to, True)
         shutil.copytree(folder, to)
         record = json.loads((to / 'run.json').read_text())
+        record['overrides'] = sets if sys.argv[1] == 'run' else []
         record['versions'] = dict(zip(('turbidite', 'commit'), [*version, '']))
         (to / 'run.json').write_text(json.dumps(record))
 sys.exit({code})
@@ -79,9 +83,21 @@ class Quantities(RunFolderTest):
         self.run_data.history['mean_position_y'][-1] = float('nan')
         self.assertIsNone(self.of('end(mean_position_y)'))          # the last row has none
         self.assertIsNone(self.of('end(gone)'))
-        for text in ('at(mean_speed, 1.5)', 'mean(mean_speed, 7, 9)'):
+        for text in ('at(mean_speed, 1.5)', 'mean(mean_speed, 1.2, 1.8)'):
             with self.assertRaisesRegex(ValueError, 'no row'):
                 self.of(text)
+
+    def test_a_mean_until_after_the_end_cannot_be_told(self):
+        for end in (4, 4.5, 9):
+            with self.assertRaisesRegex(ValueError, f'the last row is at 3 t_c, before {end:g}'):
+                self.of(f'mean(mean_speed, 1, {end})')
+        for end in (2, 3, 3.9):      # no row is lacking
+            self.assertAlmostEqual(self.of(f'mean(mean_speed, 1, {end})'), 3.5 if end == 2 else 11.0 / 3.0)
+        self.run_data.history['time'][-1] -= 1e-9
+        self.assertAlmostEqual(self.of('mean(mean_speed, 1, 3)'), 11.0 / 3.0)
+        self.assertEqual(self.of('mean(mean_position_y, 2, 3)'), 1.0)
+        self.run_data.history['mean_position_y'][-1] = float('nan')     # no grain was left, and the run went on
+        self.assertEqual(self.of('mean(mean_position_y, 0, 3)'), 2.5)
 
     def test_of_the_analysis(self):
         self.assertEqual(self.of('end_height'), 1.0)
@@ -256,6 +272,26 @@ class Gallery(Played):
         code, told = self.act('falling', '--judge')
         self.assertEqual(code, 2)
         self.assertIn('out/falling is not done, and cannot be judged: it is prepared', told)
+
+    def test_a_run_of_other_keys_is_not_judged(self):
+        def refused(tree, text):
+            code, told = self.act('--quick', '--judge', 'falling', tree=tree)
+            self.assertEqual(code, 2, told)
+            self.assertRegex(told, fr'falling: \S+/out/falling-quick was played {text}')
+            self.assertNotIn('holds', told)
+
+        def form(**sets):
+            quick = {**TREE['falling']['quick'], 'set': {**TREE['falling']['quick']['set'], **sets}}
+            return {'falling': {**TREE['falling'], 'quick': quick}}
+        self.act('--quick', 'falling')
+        self.assertEqual(self.act('--quick', '--judge', 'falling')[0], 0)
+        refused(form(**{'time.end': 2}), 'with time.end = 1, and the quick form is with time.end = 2')
+        refused(form(**{'domain.left': 'wall'}), 'without domain.left, and the quick form is with domain.left = wall')
+        record = json.loads((self.folder / 'out/falling-quick/run.json').read_text())
+        for resumed, text in (('time.end=3', 'with time.end = 3, and the quick form is with time.end = 1'),
+                              ('limits.drift=1', 'with limits.drift = 1, and the quick form is without limits.drift')):
+            self.write('out/falling-quick/run.json', json.dumps({**record, 'parts': [{}, {'overrides': [resumed]}]}))
+            refused(TREE, text)
 
     def test_a_gallery_that_was_killed_leaves_no_time_of_an_earlier_run(self):
         self.act('falling')
@@ -508,6 +544,26 @@ class Studies(Played):
             return records.Played(source, subprocess.run(line).returncode, 1.0, 2.0)
         with mock.patch.object(playing, 'play', play):
             self.assertNotIn('processor', self.recorded())
+
+    def test_a_study_of_other_keys_is_not_judged(self):
+        def judged(**form):
+            return self.act('--judge', 'sweep', tree={'sweep': {'full': {**self.tree['sweep']['full'], **form}}})
+        self.act('sweep')
+        self.assertEqual(judged()[0], 0)
+        code, told = judged(set={'time.end': 2})
+        self.assertEqual(code, 2)
+        self.assertRegex(told, r'sweep: \S+/out/sweep was played without time.end, and the full form is with time.end')
+        self.change('seed-2', parts=[{}, {'overrides': ['time.end=3']}])
+        self.assertIn('was played with time.end = 3, and the full form is without time.end', judged()[1])
+
+    def test_the_short_form_of_a_study_that_has_got_its_own_is_played_anew(self):
+        tree = {'sweep': {'full': {}, 'quick': self.tree['sweep']['full']}}
+        self.act('--quick', 'sweep', tree=tree)
+        with open(self.folder / 'configs/sweep.yaml', 'a', encoding='utf-8') as study:
+            study.write('    quick: {time.end: 1}\n')
+        code, told = self.act('--quick', '--judge', 'sweep', tree=tree)
+        self.assertEqual(code, 2)
+        self.assertIn('was played without --quick, and the quick form is with it', told)
 
     def test_runs_that_are_not_there_are_not_judged(self):
         shutil.rmtree(self.folder / 'made-up/column/seed-2')

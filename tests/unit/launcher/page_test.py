@@ -13,7 +13,7 @@ import made_up_run  # noqa: F401  (finds the modules of the report)
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 
-from document.page import Page
+from document.page import Page, is_picture_of_a_page
 from document.typeset import Code, typeset
 from document.working import Progress
 
@@ -59,6 +59,42 @@ class Pages(unittest.TestCase):
         page.legend([('<one>', '#123456', '', False), ('two', '#654321', '4 2', True)])
         self.assertIn('&lt;one&gt;', page.text())
         self.assertEqual(page.text().count('<rect'), 1)
+
+
+class Pictures(made_up_run.RunFolderTest):
+    """In `pictures/` beside a page."""
+
+    def write_page(self, *names):
+        page = Page('title')
+        for name in names:
+            page.file_only(plt.figure(), name)
+        self.assertTrue(page.write_pictures(self.folder))
+
+    def test_those_of_an_earlier_page_are_removed(self):
+        self.write_page('stays', 'goes', 'höhe-β', 'β')
+        self.write_page('stays')
+        self.assertEqual([path.name for path in self.folder.iterdir()], ['stays.png'])
+
+    def test_those_of_a_user_stay(self):
+        self.write_page('energy')
+        (self.folder / 'copy.png').write_bytes((self.folder / 'energy.png').read_bytes())
+        figure = plt.figure()
+        figure.savefig(self.folder / 'by-matplotlib.png')
+        figure.savefig(self.folder / 'titled.png', metadata={'Title': 'titled'})
+        plt.close(figure)
+        self.write('damaged.png', (self.folder / 'energy.png').read_bytes()[:20])
+        self.write('text.png', 'no picture')
+        (self.folder / 'folder.png').mkdir()
+        kept = sorted(path.name for path in self.folder.iterdir() if path.name != 'energy.png')
+        self.assertEqual(len(kept), 6)
+        self.write_page('front')
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), sorted([*kept, 'front.png']))
+
+    def test_one_that_is_too_large_to_be_read_is_a_users(self):
+        self.write_page('large')
+        self.assertTrue(is_picture_of_a_page(self.folder / 'large.png'))
+        with mock.patch('PIL.Image.MAX_IMAGE_PIXELS', 1):
+            self.assertFalse(is_picture_of_a_page(self.folder / 'large.png'))
 
 
 class Reading(unittest.TestCase):

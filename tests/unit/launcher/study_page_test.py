@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The page of a study: what quantities are drawn against, and what comes first."""
+import contextlib
+import io
 import json
 import unittest
 from types import SimpleNamespace
@@ -51,9 +53,18 @@ class Page(RunFolderTest):
                          'values': {'contact.friction': str(friction), 'random.seed': str(seed)}})
         self.write('study.json', json.dumps({'study': 'slopes', 'runs': runs, **of_all}))
 
+    def pictures(self):
+        return sorted(path.name for path in (self.folder / 'pictures').iterdir())
+
     def page(self):
         self.assertEqual(study.main(['study.py', str(self.folder)]), 0)
         return (self.folder / 'study.html').read_text()
+
+    def refused(self):
+        told = io.StringIO()
+        with contextlib.redirect_stderr(told):
+            self.assertEqual(study.main(['study.py', str(self.folder)]), 2)
+        return told.getvalue()
 
     def test_answers_come_first_then_pictures_curves_and_all_numbers(self):
         self.write_study(command=['turbidite', 'study', 'my slopes.yaml', '--set', 'time.end=2'])
@@ -71,11 +82,33 @@ class Page(RunFolderTest):
 
     def test_pictures_are_those_of_the_page(self):
         self.write_study()
-        self.write('pictures/of-a-part-that-is-gone.png', '')
         self.page()
-        pictures = [path.name for path in (self.folder / 'pictures').iterdir()]
-        self.assertGreater(len(pictures), 1)
-        self.assertNotIn('of-a-part-that-is-gone.png', pictures)
+        first = self.pictures()
+        self.assertGreater(len([name for name in first if name.startswith('other-')]), 1)
+        record = json.loads((self.folder / 'study.json').read_text())
+        self.write('study.json', json.dumps({**record, 'runs': record['runs'][:3]}))
+        self.page()
+        self.assertEqual(self.pictures(), [name for name in first if name.startswith('sweep-')])
+
+    def test_files_of_others_stay(self):
+        self.write_study(figures='paper')
+        kept = {'study.csv': 'slope,run\n1,2\n', 'study.html': '<!DOCTYPE html><title>Study of slopes</title>',
+                'paper.md': '# My paper\n'}
+        for name, text in kept.items():
+            self.write(name, text)
+            self.assertIn(f'turbidite study: {self.folder / name} would be overwritten. It is not of a study. Rename',
+                          self.refused())
+            self.assertEqual((self.folder / name).read_text(), text)
+            self.assertCountEqual([file.name for file in self.folder.iterdir() if file.is_file()], ['study.json', name])
+            (self.folder / name).unlink()
+
+    def test_results_are_written_anew(self):
+        self.write_study()
+        first = self.page()
+        for lost in ('study.html', 'study.csv'):  # the other one is still known
+            (self.folder / lost).unlink()
+            self.assertEqual(self.page(), first)
+            self.assertTrue((self.folder / lost).exists())
 
     def test_runs_that_are_not_done_are_in_no_mean(self):
         self.write_study({'sweep/friction-0.1-seed-2': 'interrupted', 'other/friction-0.1-seed-1': 'failed'})
