@@ -285,18 +285,19 @@ std::string failed_text(const std::vector<PlannedRun>& plan, const fs::path& out
                        more);
 }
 
-/// Table and figures, by the last to end. False if they cannot be written.
-bool conclude(const Study& study, const std::vector<PlannedRun>& plan, const fs::path& out,
-              const StudyTurns& turns, bool again) {
+/// Table and figures, by the last to end; what their script says of them.
+ExitCode conclude(const Study& study, const std::vector<PlannedRun>& plan, const fs::path& out,
+                  const StudyTurns& turns, bool again) {
     const auto lock = turns.lock();
     if (const std::size_t others = turns.played_by_others()) {
         fmt::print(
             "{} more {} being played by another `turbidite study`; the last to end writes "
             "table and figures.\n",
             others, others == 1 ? "run is" : "runs are");
-        return true;
+        return ExitCode::done;
     }
-    if (!write_study_results(out, find_programs())) return false;
+    if (const ExitCode code = write_study_results(out, find_programs()); code != ExitCode::done)
+        return code;
     const std::size_t left = missing_runs(plan, out, again).size();
     const std::string text =
         fmt::format("{} of {} runs done{}. Results in {}: study.html, study.csv{}.{}\n",
@@ -304,7 +305,7 @@ bool conclude(const Study& study, const std::vector<PlannedRun>& plan, const fs:
                     study.figures.empty() ? "" : fmt::format(", {}.md", study.figures),
                     left > 0 ? " The same line again runs what is missing." : "");
     fmt::print("{}", for_stdout(text));
-    return true;
+    return ExitCode::done;
 }
 
 /// What plays the same study from anywhere, without the flags that change no result.
@@ -380,9 +381,8 @@ int run_study(const StudyOptions& options) {
     const ExitCode code = play_missing(study, plan, out, turns);
     if (!asked_to_stop(code)) draw_missing_reports(plan, out);
     std::fflush(nullptr);
-    return conclude(study, plan, out, turns, options.again)
-               ? static_cast<int>(code)
-               : static_cast<int>(ExitCode::participant_failed);
+    const ExitCode written = conclude(study, plan, out, turns, options.again);
+    return static_cast<int>(written == ExitCode::done ? code : written);
 }
 
 }  // namespace

@@ -106,9 +106,9 @@ ExitCode write_film(const RunFolder& folder, const Programs& programs) {
         run_script(programs, programs.film(), {folder.root}, "There is no film so far."));
 }
 
-bool write_study_results(const std::filesystem::path& folder, const Programs& programs) {
-    return run_script(programs, programs.study(), {folder},
-                      "The same line again writes table and figures.") == 0;
+ExitCode write_study_results(const std::filesystem::path& folder, const Programs& programs) {
+    return outcome_of(run_script(programs, programs.study(), {folder},
+                                 "The same line again writes table and figures."));
 }
 
 ExitCode write_comparison(const std::filesystem::path& page, const std::vector<RunFolder>& runs,

@@ -31,7 +31,8 @@ ExitCode write_comparison(const std::filesystem::path& page, const std::vector<R
                           bool each, const Programs& programs);
 
 /// Runs launcher/report/study.py: the results table and figures of the runs of `folder`/study.json
-/// that are there. False when it failed, its words on stderr.
-bool write_study_results(const std::filesystem::path& folder, const Programs& programs);
+/// that are there. On failure returns bad_input if a file of somebody else is in their place,
+/// otherwise participant_failed; its messages are on stderr.
+ExitCode write_study_results(const std::filesystem::path& folder, const Programs& programs);
 
 }  // namespace turbidite
