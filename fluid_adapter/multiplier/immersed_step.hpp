@@ -83,7 +83,7 @@ class ImmersedStep {
     /// How contacts and fluid come to one velocity.
     struct Agreement {
         bool carries_contacts;  // from window to window
-        double tolerance;       // of the velocity [m/s]; 0 where one of them has the last word
+        double tolerance;       // of the velocity [m/s]; 0 without coupling.tolerance
     };
 
     ImmersedGrain immersed(const GrainState& state) const;

@@ -414,7 +414,7 @@ TEST_F(DrumWithLiquid, IsRefusedWhereTheLiquidWouldPass) {
     write_drum("0.2", "1");
     const Answer answer = play("thin", "");
     EXPECT_EQ(answer.code, 2);
-    EXPECT_SAYS(answer.err, "at least 2 cells, here 0.3333 D");
+    EXPECT_SAYS(answer.err, "at least 2 cells, here 0.3334 D");
 }
 
 TEST_F(SpaceFluid, TheSurfaceThatTheFluidSeesChangesTheFall) {

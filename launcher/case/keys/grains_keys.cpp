@@ -254,8 +254,7 @@ KeyGroup grains_keys() {
                           .help =
                               "x1, y1, z1, x2, y2, z2, R: the generator (lattice, random) fills "
                               "the cylinder of radius R around the axis from point 1 to point 2, "
-                              "in the place "
-                              "of grains.region",
+                              "in the place of grains.region",
                           .allowed = "Seven numbers: the ends of the axis and the radius.",
                           .remedy = "Write for example cylinder: [10, 0, 10, 10, 40, 10, 10].",
                           .entries = 7,
