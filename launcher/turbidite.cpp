@@ -76,6 +76,12 @@ std::string version_line() {
     return commit().empty() ? name : name + " (commit " + commit() + ")";
 }
 
+int end_with(ExitCode code, const std::string& text) {
+    std::fflush(stdout);
+    tell_on_stderr(text);
+    return static_cast<int>(code);
+}
+
 int act(const CommandAction& action) {
     try {
         return action();
@@ -84,24 +90,20 @@ int act(const CommandAction& action) {
         print_on_stderr(for_stderr(std::string(failure.what()) + "\n"));
         return static_cast<int>(failure.code());
     } catch (const std::filesystem::filesystem_error& error) {
-        std::fflush(stdout);
         const bool full = error.code() == std::errc::no_space_on_device;
         const ExitCode code = full ? ExitCode::participant_failed : ExitCode::bad_input;
-        tell_on_stderr(fmt::format(
-            "{}: {}\n  {} Exit code {}.", error.path1().string(), error.code().message(),
-            full ? "Make room: df -h." : "Check this path, and what you may read and write there.",
-            static_cast<int>(code)));
-        return static_cast<int>(code);
+        return end_with(
+            code, fmt::format("{}: {}\n  {} Exit code {}.", error.path1().string(),
+                              error.code().message(),
+                              full ? "Make room: df -h."
+                                   : "Check this path, and what you may read and write there.",
+                              static_cast<int>(code)));
     } catch (const std::bad_alloc&) {
-        std::fflush(stdout);
-        tell_on_stderr(
-            "not enough memory\n  Ask for fewer grains or cells; `free -g` shows what there is. "
-            "Exit code 2.");
-        return static_cast<int>(ExitCode::bad_input);
+        return end_with(ExitCode::bad_input,
+                        "not enough memory\n  Ask for fewer grains or cells; `free -g` shows what "
+                        "there is. Exit code 2.");
     } catch (const std::exception& error) {
-        std::fflush(stdout);
-        tell_on_stderr(error.what());
-        return static_cast<int>(ExitCode::participant_failed);
+        return end_with(ExitCode::participant_failed, error.what());
     }
 }
 

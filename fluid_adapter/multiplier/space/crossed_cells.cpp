@@ -18,17 +18,17 @@ double half_chord(double radius, double square) {
 
 const std::vector<CrossedCell>& CrossedCells::find(const std::vector<ImmersedGrain>& grains) {
     crossed_.clear();
-    for (const std::size_t g : crossing(grains)) find_rows(static_cast<int>(g), grains[g]);
+    find_crossing(grains);
+    for (const std::size_t g : crossing_) find_rows(static_cast<int>(g), grains[g]);
     return crossed_;
 }
 
-std::vector<std::size_t> CrossedCells::crossing(const std::vector<ImmersedGrain>& grains) const {
-    std::vector<std::size_t> found;
+void CrossedCells::find_crossing(const std::vector<ImmersedGrain>& grains) {
+    crossing_.clear();
     for (std::size_t g = 0; g < grains.size(); ++g)
-        if (crosses(grains[g])) found.push_back(g);
-    std::sort(found.begin(), found.end(),
+        if (crosses(grains[g])) crossing_.push_back(g);
+    std::sort(crossing_.begin(), crossing_.end(),
               [&](std::size_t a, std::size_t b) { return grains[a].id < grains[b].id; });
-    return found;
 }
 
 bool CrossedCells::crosses(const ImmersedGrain& body) const {

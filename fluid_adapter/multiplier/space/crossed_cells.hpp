@@ -29,10 +29,10 @@ class CrossedCells {
     /// overlap may be left by both.
     const std::vector<CrossedCell>& find(const std::vector<ImmersedGrain>& grains);
 
-    /// Those that may cross cells, in the order of their ids: what two of them give to a cell adds
-    /// up to the same digits in whatever order grains are sent. Not in a box that is shorter along
-    /// a cyclic axis than a sphere and two cells on either side of it.
-    std::vector<std::size_t> crossing(const std::vector<ImmersedGrain>& grains) const;
+    /// Those of the last `find` that may cross cells, in the order of their ids: what two of them
+    /// give to a cell adds up to the same digits in whatever order grains are sent. Not in a box
+    /// that is shorter along a cyclic axis than a sphere and two cells on either side of it.
+    const std::vector<std::size_t>& crossing() const { return crossing_; }
 
  private:
     /// A row of cells along x, relative to the sphere: r = (x, y, z) for the cells of any x.
@@ -45,11 +45,13 @@ class CrossedCells {
     void find_row(const Row& row, const ImmersedGrain& sphere);
     void take(const Row& row, const ImmersedGrain& sphere, int i);
     bool crosses(const ImmersedGrain& body) const;
+    void find_crossing(const std::vector<ImmersedGrain>& grains);
     bool known(int layer) const;
     const CellGrid& grid() const { return *cells_.grid; }
 
     LayerCells cells_;
     const CellOwners& owners_;
+    std::vector<std::size_t> crossing_;
     std::vector<CrossedCell> crossed_;
 };
 

@@ -24,7 +24,7 @@ std::vector<Eigen::Vector3d> SlipReturn::play(const std::vector<ImmersedGrain>& 
     shell_.clear();
     for (const CrossedCell& cell : crossed_.find(grains))
         return_from(cell, grains[cell.grain], sums[cell.grain]);
-    for (const std::size_t g : crossed_.crossing(grains)) find_shell(g, grains[g], sums[g]);
+    for (const std::size_t g : crossed_.crossing()) find_shell(g, grains[g], sums[g]);
     field_.sum_over_holders(sums.empty() ? nullptr : sums.front().data(), Sums::SizeAtCompileTime);
     // Only now: what was read is the velocity of before.
     for (const auto& [cell, by] : change_)

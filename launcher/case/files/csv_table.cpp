@@ -79,10 +79,9 @@ void read_row(CsvTable& table, int line, const std::string& text) {
 
 }  // namespace
 
-bool CsvTable::has_value(const Row& row, const std::string& column) const {
+std::string CsvTable::field(const Row& row, const std::string& column) const {
     const auto at = std::find(columns.begin(), columns.end(), column);
-    return at != columns.end() &&
-           !row.fields[static_cast<std::size_t>(at - columns.begin())].empty();
+    return at == columns.end() ? "" : row.fields[static_cast<std::size_t>(at - columns.begin())];
 }
 
 void CsvTable::refuse(int line, const std::string& fault, const std::string& allowed,

@@ -31,8 +31,8 @@ struct CsvTable {
     std::vector<Row> rows;
     std::vector<CaseProblem> problems;
 
-    /// Whether there is such a column, and something in it in this row.
-    bool has_value(const Row& row, const std::string& column) const;
+    /// What a row has in a column; empty without such a column.
+    std::string field(const Row& row, const std::string& column) const;
 
     /// Adds a problem in a line; 0: in no particular line.
     void refuse(int line, const std::string& fault, const std::string& allowed,

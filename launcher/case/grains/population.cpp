@@ -179,11 +179,7 @@ void check_fixed(CsvTable& table, const CsvTable::Row& row, const PlacedGrain& g
             row.line,
             fmt::format("grain {} follows motion {} and has a velocity", grain.id, grain.motion),
             "vx, vy and spin of a grain that follows a motion are 0.", "Set them to 0.");
-    const auto column = std::find(table.columns.begin(), table.columns.end(), "motion");
-    if (column == table.columns.end()) return;
-    const bool fixed =
-        row.fields[static_cast<std::size_t>(column - table.columns.begin())] == "fixed";
-    if (fixed && has_velocity)
+    if (table.field(row, "motion") == "fixed" && has_velocity)
         table.refuse(row.line, fmt::format("grain {} is fixed and has a velocity", grain.id),
                      "vx, vy and spin of a fixed grain are 0.",
                      "Set them to 0, or use motion = driven.");
@@ -196,7 +192,7 @@ PlacedGrain grain_of(CsvTable& table, const CsvTable::Row& row, const FileWords&
         set_field(table, row.line, words, table.columns[i], row.fields[i], grain);
     if (forms.dimension == 3) check_turn(table, row.line, grain);
     check_fixed(table, row, grain);
-    if (!table.has_value(row, "radius"))
+    if (table.field(row, "radius").empty())
         // Only now, since the default follows from the shape, which may be a later column.
         grain.radius = forms.forms[static_cast<std::size_t>(grain.shape)].radius;
     return grain;

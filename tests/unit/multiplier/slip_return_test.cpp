@@ -93,11 +93,13 @@ TEST(CrossedCells, OfALengthWhoseSquareIsZeroThereAreNone) {
     std::vector<ImmersedGrain> grains{sphere(1, {1.53, 1.54, 1.56})};
     SphereCells cells(field.layers());
     cells.find(grains);
-    const CrossedCells crossed(field.layers(), cells.owners());
+    CrossedCells crossed(field.layers(), cells.owners());
     grains[0].moved = {1e-170, 0.0, 0.0};
-    EXPECT_TRUE(crossed.crossing(grains).empty());
+    crossed.find(grains);
+    EXPECT_TRUE(crossed.crossing().empty());
     grains[0].moved = {1e-150, 0.0, 0.0};
-    EXPECT_EQ(crossed.crossing(grains).size(), 1u);
+    crossed.find(grains);
+    EXPECT_EQ(crossed.crossing().size(), 1u);
 }
 
 /// A part of the layers, which knows those of the other part beside its own. What is to be summed
