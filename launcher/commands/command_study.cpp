@@ -357,6 +357,7 @@ int run_study(const StudyOptions& options) {
     Study study = read_study(options.file);
     const std::vector<PlannedRun> plan = plan_study(study, options.overrides, options.quick);
     const fs::path out = folder_of(study, options);
+    require_own_record(out);
     study.command = words_of(options, out);
     const std::vector<const PlannedRun*> missing = missing_runs(plan, out, options.again);
     const std::string text =

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "launcher/study/study_record.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "coupler/checkpoint/checkpoint_sets.hpp"
@@ -13,6 +15,10 @@ namespace turbidite {
 namespace {
 
 using Record = nlohmann::ordered_json;
+
+std::filesystem::path record_in(const std::filesystem::path& out) {
+    return out / "study.json";
+}
 
 std::string error_of(const PlannedRun& run, RunState state, const Record& record,
                      const WhyNot& why_not) {
@@ -101,9 +107,20 @@ bool may_go_on(const PlannedRun& run, const std::filesystem::path& out) {
     return state == RunState::failed && by_chance && has_checkpoint(folder);
 }
 
+void require_own_record(const std::filesystem::path& out) {
+    const std::filesystem::path file = record_in(out);
+    std::error_code none;
+    const auto size = std::filesystem::file_size(file, none);
+    if (none || size == 0 || read_run_json(file).contains("runs")) return;
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("turbidite study: {} would be overwritten. It is not of a study.\n  "
+                              "Rename it, or name another folder with --out. Exit code 2.",
+                              file.string()));
+}
+
 void write_study_record(const Study& study, const std::vector<PlannedRun>& plan,
                         const std::filesystem::path& out, const WhyNot& why_not) {
-    const std::filesystem::path file = out / "study.json";
+    const std::filesystem::path file = record_in(out);
     WhyNot reasons = why_not;
     reasons.merge(reasons_in(file));
     auto runs = nlohmann::ordered_json::array();

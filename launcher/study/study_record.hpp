@@ -28,6 +28,9 @@ bool may_go_on(const PlannedRun& run, const std::filesystem::path& out);
 /// Why runs could not be played, by PlannedRun::path().
 using WhyNot = std::map<std::string, std::string>;
 
+/// Throws Failure (bad input) where `out` has a study.json that is of no study.
+void require_own_record(const std::filesystem::path& out);
+
 /// Runs that are still missing keep the reason that study.json has had. Throws Failure (exit code
 /// 4) when it cannot be written.
 void write_study_record(const Study& study, const std::vector<PlannedRun>& plan,

@@ -470,6 +470,21 @@ TEST_F(StudyRuns, AnotherStudyInTheFolderIsTold) {
     EXPECT_SAYS(nowhere.err, "/proc/nowhere cannot be made");
 }
 
+TEST_F(StudyRuns, ARecordOfSomethingElseStays) {
+    scratch.write("frictions.yaml",
+                  "{case: column.yaml, set: {time.end: 0.1}, sweep: {contact.friction: [0.3]}}");
+    fs::create_directories(scratch.path() / "s");
+    for (const char* foreign : {"{\"study\": \"of my own\"}\n", "[1, 2]\n"}) {
+        scratch.write("s/study.json", foreign);
+        const Answer refused = study("");
+        EXPECT_EQ(refused.code, 2);
+        EXPECT_SAYS(refused.err, "s/study.json would be overwritten. It is not of a study.");
+        EXPECT_EQ(text(scratch.path() / "s/study.json"), foreign);
+    }
+    scratch.write("s/study.json", "");  // holds nothing that could be lost
+    EXPECT_EQ(study("").code, 0);
+}
+
 TEST_F(StudyRuns, ADryRunListsTheRuns) {
     const Answer answer = study("--dry-run");
     EXPECT_EQ(answer.code, 0);
