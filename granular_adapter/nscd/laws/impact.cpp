@@ -51,6 +51,12 @@ void demand_rebound(const ContactSituation& s, double restitution, LawTerms& ter
     if (rebound > 0.0) demand_speed(rebound, terms);
 }
 
+void allow_return(const ContactSituation& s, double restitution, double threshold,
+                  LawTerms& terms) {
+    if (s.approach.n <= threshold) return;
+    terms.normal_bias = std::max(terms.normal_bias, restitution * s.approach.n);
+}
+
 void end_approach(LawTerms& terms) {
     demand_speed(0.0, terms);
 }

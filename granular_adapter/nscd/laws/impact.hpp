@@ -25,6 +25,14 @@ bool in_impact(const ContactSituation& situation, const LawTerms& terms, double 
 /// Imposes u_n >= -e u_n^-, less what a film takes, unless the terms already require more.
 void demand_rebound(const ContactSituation& situation, double restitution, LawTerms& terms);
 
+/// A contact that parts faster than `threshold` may close again at e u_n^-: b_n >= e u_n^-. An
+/// impact on the other side of a body throws it back at once, and this contact, if its gap g is
+/// smaller than that, would have to throw it forward: no velocity meets both, or another body gets
+/// energy that nobody had. With r_n >= 0 this b_n gives r_n (u_n^+ + e u_n^-) <= 0, the bound of
+/// the energy in impacts. What overlaps then, up to e u_n^- dt - g, is an impact of the next step.
+void allow_return(const ContactSituation& situation, double restitution, double threshold,
+                  LawTerms& terms);
+
 /// Imposes u_n >= 0 as well where there is no rebound: else what closes the gap in this step would
 /// be an impact again in the next, and a tangential restitution would act twice.
 void end_approach(LawTerms& terms);

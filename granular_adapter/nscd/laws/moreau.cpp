@@ -6,8 +6,9 @@
 //
 // and moments oppose the averaged relative spin, with the bias e w^-,
 //
-// in impacts only. If all impacts of a step have the same e, the energy cannot increase, with any
-// friction and any number of contacts: r . u_a <= 0 and W positive give r . (u^+ + u^-) <= 0.
+// in impacts only; where a contact parts, b_n >= e u_n^- (impact.hpp). If all contacts of a step
+// have the same e, impacts cannot increase the energy, with any friction and any number of
+// contacts: r . u_a <= 0 and W positive give r . (u^+ + u^-) <= 0.
 #include <stdexcept>
 
 #include "granular_adapter/nscd/laws/impact.hpp"
@@ -27,7 +28,9 @@ std::optional<LawPart> make_moreau(const LawSettings& settings, const SurfaceTab
     return LawPart{.add =
                        [=](const ContactSituation& s, LawTerms& terms) {
                            const double restitution = s.surface.restitution;
-                           if (restitution == 0.0 || !in_impact(s, terms, threshold)) return;
+                           if (restitution == 0.0) return;
+                           if (!in_impact(s, terms, threshold))
+                               return allow_return(s, restitution, threshold, terms);
                            demand_rebound(s, restitution, terms);
                            end_approach(terms);  // of a film that takes all of the rebound
                            terms.tangential_restitution = restitution;  // b_t = e u_t^-
