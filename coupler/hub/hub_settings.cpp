@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupler/hub/hub_settings.hpp"
 
-#include "coupler/protocol/hello.hpp"
-
 namespace turbidite {
 namespace {
 
@@ -21,7 +19,7 @@ HubSettings hub_settings(const Settings& settings) {
     result.penetration = settings.real("limits.penetration");
     result.grain_balance = balance_limits(settings, "limits.grain_balance");
     result.fluid_balance = balance_limits(settings, "limits.fluid_balance");
-    result.users_program = settings.text("grains.adapter") == users_program;
+    result.users_program = result.solves.users_program;
     result.springs = settings.has("run.md_frequency");
     return result;
 }

@@ -64,7 +64,7 @@ double pressure_unit(Cell c) {
 }
 /// sigma = virial / V over rho_s g D, V the volume of the grains and the pores between them.
 std::string stress(Cell c, double Symmetric3::*part) {
-    if (!c.network || c.row.state->grains.empty()) return "";
+    if (!c.network || !c.network->has_branches || c.row.state->grains.empty()) return "";
     return number(c.network->virial.*part / (c.mean.solid + c.pores) / pressure_unit(c));
 }
 

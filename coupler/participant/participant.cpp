@@ -12,6 +12,7 @@
 
 #include "coupler/protocol/case_hash.hpp"
 #include "coupler/protocol/files/run_files.hpp"
+#include "coupler/protocol/files/start_record.hpp"
 #include "coupler/transport/intercomm_channel.hpp"
 #include "coupler/transport/world.hpp"
 
@@ -81,12 +82,22 @@ struct Membership::State {
         PMPI_Comm_size(local, &ranks);
         run_folder = launch.run_folder;
         // Rank and size first: several ranks have a log each.
-        log = log_file(run_folder, role, rank, ranks);
+        log = started_log();
+        if (log.empty()) log = log_file(run_folder, role, rank, ranks);
         redirect_output(log);
         hash = hash_of_run(launch.run_folder);
         // The ranks of this program may talk to each other from here on, before the coupler is met.
-        if (launch.joined) launch.joined(MPI_Comm_c2f(local));
+        if (launch.joined) call(launch.joined);
         channel = std::make_unique<IntercommChannel>(join_coupler(local, role));
+    }
+
+    void call(const std::function<void(int)>& joined) {
+        try {
+            joined(MPI_Comm_c2f(local));
+        } catch (...) {
+            mpi.abandon();
+            throw;
+        }
     }
 
     Role role;
@@ -98,12 +109,20 @@ struct Membership::State {
     std::string log;
     std::string hash;
     std::unique_ptr<IntercommChannel> channel;
+    bool over = false;  ///< the run, for this program
 };
 
 Membership::Membership(Role role, const Launch& launch)
     : state_(std::make_unique<State>(role, launch)) {}
 
-Membership::~Membership() = default;
+/// In the middle of a run, as where a host's own loop has thrown: what it says, and its end, are
+/// then told by turbidite-member.
+Membership::~Membership() {
+    if (state_->over) return;
+    std::fprintf(stderr, "turbidite: %s: has left before the run was over\n",
+                 role_name(state_->role));
+    state_->mpi.abandon();
+}
 
 Channel& Membership::channel() {
     return *state_->channel;
@@ -115,6 +134,7 @@ Identity Membership::identity() const {
 
 int Membership::leave(const Outcome& outcome) {
     const int code = static_cast<int>(outcome.code);
+    state_->over = true;
     if (outcome.code != ExitCode::done)
         std::fprintf(stderr, "turbidite: the run ended with code %d: %s\n", code,
                      outcome.reason.c_str());
@@ -161,6 +181,10 @@ int run(Role role, Adapter& adapter, const Launch& launch) {
     } catch (const Failure& failure) {
         std::fprintf(stderr, "turbidite: %s: %s\n", role_name(role), failure.what());
         return static_cast<int>(failure.code());
+    } catch (const std::exception& error) {
+        // Of Launch::joined
+        std::fprintf(stderr, "turbidite: %s: %s\n", role_name(role), error.what());
+        return static_cast<int>(ExitCode::participant_failed);
     }
 }
 

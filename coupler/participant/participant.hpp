@@ -50,7 +50,8 @@ class Membership {
     Identity identity() const;  ///< for make_session()
 
     /// After the farewell: writes the final messages and returns the exit code of the program. MPI
-    /// is finalised with this object.
+    /// is finalised with this object; without this call, as where the host has thrown, it is not,
+    /// and the program is to end, which ends the job.
     int leave(const Outcome& outcome);
 
     /// The coupler no longer answers: prints the reason and aborts the whole job.

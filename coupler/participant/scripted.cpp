@@ -61,7 +61,7 @@ void ScriptedGrains::touch_floor(GrainState& grain, double mass, double step) {
     contact.wall = 2;
     contact.status = ContactStatus::sliding;
     contact.gap = gap;
-    contact.point = {grain.position[0], grain.position[1] - grain.radius, 0.0};
+    contact.point = {grain.position[0], grain.position[1] - grain.radius, grain.position[2]};
     contact.normal = {0.0, 1.0, 0.0};
     contact.branch = {0.0, grain.radius, 0.0};
     contact.impulse = grain.contact_impulse;

@@ -82,6 +82,8 @@ class Replay {
           arrived_(static_cast<std::size_t>(participant.peers())),
           last_(arrived_.size()),
           sent_(arrived_.size(), 0),
+          dismissed_(arrived_.size(), false),
+          left_(arrived_.size(), false),
           released_(arrived_.size(), false) {}
 
     ReplayReport play() {
@@ -121,6 +123,7 @@ class Replay {
         const auto peer = static_cast<std::size_t>(frame.peer);
         last_[peer] = envelope;
         ++sent_[peer];
+        dismissed_[peer] = dismissed_[peer] || envelope.kind == Kind::dismiss;
         released_[peer] = envelope.kind == Kind::release;
         if (envelope.kind == Kind::window && frame.peer == 0) order_.progress(report_.windows++);
         channel_.send(frame.peer, frame.bytes);
@@ -162,6 +165,7 @@ class Replay {
             now.envelope.iteration != then.envelope.iteration)
             throw Failure(ExitCode::participant_failed,
                           "it sent " + place_of(now, peer) + " instead of " + place_of(then, peer));
+        left_[static_cast<std::size_t>(peer)] = now.envelope.kind == Kind::farewell;
         ++report_.messages;
         const auto ours = numbers_of(now), theirs = numbers_of(then);
         // E.g. contacts that are now reported and were not then.
@@ -180,21 +184,23 @@ class Replay {
             report_.first.push_back(place_of(now, peer) + ": " + why);
     }
 
-    /// Ends the ranks that were not released by the recording.
+    /// Ends the ranks that were not released by the recording, from where it has led each of them:
+    /// of a run that stalled it has the farewell of those who were still there.
     void dismiss(const Verdict& verdict) {
-        const auto each = [&](auto end) {
+        const auto each_not = [&](const std::vector<bool>& so_far, auto end) {
             for (std::size_t peer = 0; peer < released_.size(); ++peer)
-                if (!released_[peer]) end(peer);
+                if (!released_[peer] && !so_far[peer]) end(peer);
         };
         // To all before any is waited for: ranks of one program may wait for each other on their
         // way out.
-        each([&](std::size_t peer) { send_end(peer, Kind::dismiss, encode(verdict)); });
-        each([&](std::size_t peer) {
+        each_not(dismissed_,
+                 [&](std::size_t peer) { send_end(peer, Kind::dismiss, encode(verdict)); });
+        each_not(left_, [&](std::size_t peer) {
             for (auto message = next(static_cast<int>(peer), farewell_limit);
                  message && message->envelope.kind != Kind::farewell;)
                 message = next(static_cast<int>(peer), farewell_limit);
         });
-        each([&](std::size_t peer) { send_end(peer, Kind::release, {}); });
+        each_not(released_, [&](std::size_t peer) { send_end(peer, Kind::release, {}); });
     }
 
     void send_end(std::size_t peer, Kind kind, Bytes payload) {
@@ -212,7 +218,7 @@ class Replay {
     std::vector<std::deque<Message>> arrived_;  // by rank
     std::vector<Envelope> last_;                // sent or compared
     std::vector<std::int64_t> sent_;
-    std::vector<bool> released_;
+    std::vector<bool> dismissed_, left_, released_;  // left: with its farewell
     ReplayReport report_;
 };
 

@@ -29,8 +29,12 @@ class MpiEnvironment {
     MpiEnvironment(const MpiEnvironment&) = delete;
     MpiEnvironment& operator=(const MpiEnvironment&) = delete;
 
+    /// MPI is not finalised: the program ends in the middle of a run, and MPI_Finalize would wait
+    /// for others that wait for it.
+    void abandon() { ours_ = false; }
+
  private:
-    bool ours_ = false;
+    bool ours_ = false;  ///< to finalise
 };
 
 /// Makes the single split and returns this program's own communicator.

@@ -205,6 +205,32 @@ double contact_defect(const Motion& state) {
     return worst;
 }
 
+std::string words(const Vec3& v) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", v[0], v[1], v[2]);
+}
+
+/// The first contact whose branch does not lead from centre to centre, or from the wall to the
+/// centre, as they are at some time of the window; empty if all do. Stresses are made of them.
+std::string branch_fault(const Motion& before, const Motion& state, double diameter) {
+    for (const ContactRecord& contact : *state.contacts) {
+        const bool pair = contact.wall < 0;
+        const GrainState& b = grain_of(state, contact.b);
+        Vec3 from = contact.point;
+        double moved = distance(grain_of(before, contact.b).position, b.position);
+        if (pair) {
+            from = grain_of(state, contact.a).position;
+            moved += distance(grain_of(before, contact.a).position, from);
+        }
+        const Vec3 expected = b.position - from;
+        if (distance(contact.branch, expected) <= moved + round_off * diameter) continue;
+        return fmt::format("a contact of grain {} has the branch {} m, but {} is {} m", contact.b,
+                           words(contact.branch),
+                           pair ? "centre of b minus centre of a" : "centre minus point",
+                           words(expected));
+    }
+    return "";
+}
+
 /// Codes with sub-steps report the contacts of the last one, which agree with the window's impulse
 /// when the grains are at rest.
 Finding judge_records(const Trial& trial) {
@@ -220,6 +246,9 @@ Finding judge_records(const Trial& trial) {
         ++outputs;
         contacts += states[n].contacts->size();
         worst = std::max(worst, contact_defect(states[n]) / weight);
+        const std::string fault =
+            branch_fault(states[n - 1], states[n], trial.settings.real("run.diameter"));
+        if (!fault.empty()) return {Grade::failed, fault};
     }
     if (outputs == 0) return {Grade::not_supported, "single contacts are not sent"};
     Finding finding = within(worst, substeps ? 0.05 : round_off,

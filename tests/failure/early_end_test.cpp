@@ -17,6 +17,7 @@ int count(const std::string& text, const std::string& part) {
 struct End {
     const char* fault;
     const char* how;
+    const char* due = "kicks";
 };
 class EarlyEnd : public FailingFluid, public ::testing::WithParamInterface<End> {
  protected:
@@ -67,7 +68,7 @@ TEST_P(EarlyEnd, IsToldWithPhaseAndWindow) {
     EXPECT_SAYS(message, "The run failed: fluid rank 0 " + std::string(GetParam().how));
     EXPECT_SAYS(message, std::string(", host ") + host + ", pid ");
     EXPECT_SAYS(message, "log " + (run_folder() / "logs/fluid.log").string());
-    EXPECT_SAYS(message, "; it was due to send \"kicks\", window 5");
+    EXPECT_SAYS(message, std::string("; it was due to send \"") + GetParam().due + "\", window 5");
     EXPECT_SAYS(answer.err, "Last lines of logs/fluid.log:\n");
     // After a signal the last lines are Open MPI's list of calls, and its own words are above them.
     const bool by_signal = std::string(GetParam().how).find("signal") != std::string::npos;
@@ -76,19 +77,34 @@ TEST_P(EarlyEnd, IsToldWithPhaseAndWindow) {
     expect_good_output_is_kept(ExitCode::participant_failed);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ends, EarlyEnd,
-                         ::testing::Values(End{"_exit-0", "ended with status 0"},
-                                           End{"_exit-3", "ended with status 3"},
-                                           End{"exit-0", "ended with status 0"},
-                                           End{"segfault", "was ended by signal 11"},
-                                           End{"terminate", "was ended by signal 6"},
-                                           End{"mpi-abort", "ended with status 77"}),
-                         [](const auto& info) {
-                             std::string name = info.param.fault;
-                             for (char& c : name)
-                                 if (c == '-') c = '_';
-                             return name[0] == '_' ? "Quick" + name : name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Ends, EarlyEnd,
+    ::testing::Values(End{"_exit-0", "ended with status 0"}, End{"_exit-3", "ended with status 3"},
+                      End{"exit-0", "ended with status 0"},
+                      End{"segfault", "was ended by signal 11"},
+                      End{"terminate", "was ended by signal 6"},
+                      End{"mpi-abort", "ended with status 77"},
+                      End{"own-loop-throws", "ended with status 3", "response"},
+                      End{"own-loop-returns", "ended with status 0", "response"}),
+    [](const auto& info) {
+        std::string name = info.param.fault;
+        for (char& c : name)
+            if (c == '-') c = '_';
+        return name[0] == '_' ? "Quick" + name : name;
+    });
+
+// MPI_Finalize would wait for programs that wait for this one, and its words would be lost.
+TEST_F(FailingFluid, WhatAHostThrowsIsTold) {
+    for (const auto& [fault, words] : {std::pair{"own-loop-throws", "in my own words: "},
+                                       std::pair{"joined-throws", "turbidite: fluid: "}}) {
+        const Stopwatch watch;
+        const Answer answer = run_with(fault, "--force");
+        EXPECT_LT(watch.seconds(), longest);
+        EXPECT_EQ(answer.code, 4) << answer.err;
+        EXPECT_SAYS(answer.err, std::string(words) + "scripted trouble\n");
+        expect_nothing_left();
+    }
+}
 
 // limits.start: before MPI_Init nobody can be asked.
 TEST_F(FailingFluid, AProgramThatNeverJoinsEndsTheJob) {

@@ -2,9 +2,10 @@
 //
 // faulty_fluid -case RUN/fluid, in place of turbidite-fluid: a scripted fluid with the fault named
 // by TURBIDITE_FAULT in window 5: nan, divergence, unsolved, throw, or an end: _exit-0, _exit-3,
-// exit-0, segfault, mpi-abort, terminate, finalize, loop; what it has to say before such an
-// end goes to its log. late-twice answers the contact impulses of that window late, and sends its
-// kicks late. Before MPI_Init: early-0, early-3, early-hang.
+// exit-0, segfault, mpi-abort, terminate, finalize, loop, own-loop-throws, own-loop-returns; what
+// it has to say before such an end goes to its log. late-twice answers the contact impulses of that
+// window late, and sends its kicks late. Before MPI_Init: early-0, early-3, early-hang; after it:
+// joined-throws.
 #include <mpi.h>
 #include <unistd.h>
 
@@ -83,6 +84,26 @@ void end_early(const std::string& fault) {
     std::exit(fault == "early-3" ? 3 : 0);
 }
 
+/// A host with its own loop, in which something of its own goes wrong.
+int play_in_own_loop(FaultyFluid& fluid, const Launch& launch, const std::string& fault) {
+    Membership membership(Role::fluid, launch);
+    const auto session = make_session(fluid, membership.channel(), membership.identity());
+    session->start();
+    for (std::int64_t window = 0; window < faulty_window; ++window) session->step();
+    std::fprintf(stderr, "now comes %s\n", fault.c_str());
+    if (fault == "own-loop-throws") throw std::runtime_error("scripted trouble");
+    return 0;
+}
+
+int play(FaultyFluid& fluid, const Launch& launch, const std::string& fault) {
+    try {
+        return play_in_own_loop(fluid, launch, fault);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "in my own words: %s\n", error.what());
+        return 3;
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -91,5 +112,9 @@ int main(int argc, char** argv) {
     end_early(fault);
     FaultyFluid fluid(fault);
     const std::filesystem::path foam_case = argv[2];
-    return run_fluid(fluid, {&argc, &argv, foam_case.parent_path().string()});
+    Launch launch{&argc, &argv, foam_case.parent_path().string()};
+    if (fault.rfind("own-loop", 0) == 0) return play(fluid, launch, fault);
+    if (fault == "joined-throws")
+        launch.joined = [](int) { throw std::runtime_error("scripted trouble"); };
+    return run_fluid(fluid, launch);
 }

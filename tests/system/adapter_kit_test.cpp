@@ -230,6 +230,9 @@ if sys.argv[1] == 'import': import no_such_module
 import turbidite_adapter as turbidite
 from falling import Falling
 
+class Odd(Exception):
+    def __str__(self): return 5
+
 class Mine(Falling):
     name = 'mine'
     def advance(self, window, responses):
@@ -239,6 +242,10 @@ class Mine(Falling):
         if fault == 'refuse': raise turbidite.PhysicsRefused('the disc is on fire')
         if fault == 'exit': sys.exit(0)
         if fault == '_exit': os._exit(3)
+        if fault == 'odd': raise Odd()
+        if fault == 'without_stderr':
+            sys.stderr.close()
+            raise turbidite.PhysicsRefused('the disc is on fire')
         if fault == 'fewer': motion.grains = sent[2:]
         if fault == 'nan': sent['contact_impulse'][4] = float('nan')
         if fault == 'impulse': sent['contact_impulse'][4, 0] = 1
@@ -250,6 +257,9 @@ class Mine(Falling):
         if fault == 'state_velocity': sent['velocity'][4, 0] = 1
         return motion
 
+if sys.argv[1] == 'leaves_without_stdout':
+    sys.stdout.close()
+    sys.exit(3)
 if sys.argv[1] == 'nameless': del Mine.name, Falling.name
 turbidite.run_grains(Mine(turbidite), sys.argv[-1])
 )";
@@ -278,7 +288,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"import", 4, {"ended with status 1", "the run had not begun", "No module named"}},
         Fault{"nameless", 4, {"grains rank 0 (", "AttributeError: ", "'name'"}},
         Fault{"raise", 4, {mine, "ValueError: no such thing", "Last lines of logs/grains.log"}},
-        Fault{"refuse", 6, {mine, "the disc is on fire"}},
+        Fault{"refuse", 6, {mine, "the disc is on fire"}}, Fault{"odd", 4, {mine, "Odd"}},
+        Fault{"without_stderr", 6, {mine, "the disc is on fire"}},
+        Fault{"leaves_without_stdout", 4, {"ended with status 1", "the run had not begun"}},
         Fault{"exit", 4, {mine, "SystemExit: 0"}},
         Fault{"_exit", 4, {"ended with status 3", "was due to send \"motion\", window 3"}},
         Fault{"fewer", 6, {mine, "2 of 12 grains are missing", "in \"motion\" of window 3"}},

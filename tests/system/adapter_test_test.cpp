@@ -179,6 +179,8 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenProgram{"MovesAll", "contact-grains 'moves all'", "respects held", "grain"},
         BrokenProgram{"HalfRecords", "contact-grains 'half records'", "reports its",
                       "the sum of its contacts, in weights, differs by 5.0e-01"},
+        BrokenProgram{"NoBranch", "contact-grains 'no branch'", "reports its",
+                      "has the branch (0, 0, 0) m, but centre"},
         BrokenProgram{"WrongImpulseDry", "broken-grains 'wrong impulse'", "collides and",
                       "M dU = M g dt + J_c fails most for grain"},
         BrokenProgram{"WrongImpulseInTheState", "broken-grains 'wrong impulse'", "lands and comes",

@@ -65,6 +65,15 @@ bool GrainRoster::unchanged(const Shares& shares) const {
     return at == present_.size();
 }
 
+/// The same grains in the same order may have changed their ranks: the last of one has become the
+/// first of the next.
+void GrainRoster::note_ranks(const std::vector<Motion>& shares) {
+    std::size_t at = 0;
+    for (std::size_t rank = 0; rank < shares.size(); ++rank)
+        for (std::size_t n = shares[rank].grains.size(); n > 0; --n)
+            present_[at++].rank = static_cast<int>(rank);
+}
+
 template <class Shares>
 GrainRoster::Seen GrainRoster::tally(const Shares& shares, const Arrival& arrival) const {
     // By id, in any order and from any rank: grains may change their rank between two messages.
@@ -136,7 +145,10 @@ void GrainRoster::check_missing(const Seen& seen, const std::vector<Motion>& sha
 
 std::vector<Leaver> GrainRoster::check(const std::vector<Motion>& shares, const Arrival& arrival) {
     // The announcement counts even if all grains are there.
-    if (unchanged(shares) && announced_in(shares, arrival.kind()) == 0) return {};
+    if (unchanged(shares) && announced_in(shares, arrival.kind()) == 0) {
+        note_ranks(shares);
+        return {};
+    }
     // Unknown and doubled ids first: what follows looks every grain up.
     const Seen seen = tally(shares, arrival);
     check_bodies(shares, arrival);

@@ -69,6 +69,7 @@ class GrainRoster {
     /// The common case: the grains of the last message in the same order.
     template <class Shares>
     bool unchanged(const Shares& shares) const;
+    void note_ranks(const std::vector<Motion>& shares);
     template <class Shares>
     Seen tally(const Shares& shares, const Arrival& arrival) const;
     void check_bodies(const std::vector<Motion>& shares, const Arrival& arrival) const;

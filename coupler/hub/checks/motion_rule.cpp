@@ -211,23 +211,23 @@ void MotionRule::check_motion(const Window& window, const Motion& before, const 
     check_given(window, motion);
 }
 
-/// How far a grain is from where these rates take it; of an angle, on its circumference [m].
-double MotionRule::defect(const Grain& grain, const Twist& rates, double step) const {
+MotionRule::Defect MotionRule::defect(const Grain& grain, const Twist& rates, double step) const {
     const Shift way = step * rates;
     // q^n + dt U, and the orientation of t^n turned by dt omega.
     const Vec3 goal = grain.then.position + way.displacement;
-    const double apart = norm(from_to(goal, grain.now.position));
     const double turn =
         turned(grain.then.orientation, way.angle).angularDistance(unit(grain.now.orientation));
-    return std::max(apart, grain.now.radius * turn);
+    return {norm(from_to(goal, grain.now.position)), grain.now.radius * turn};
 }
 
 double MotionRule::smallest_defect(const Grain& grain, double step) const {
-    const double corrected = defect(grain, twist_of(grain.now), step);
-    if (!with_contact_velocity_ || !grain.contact) return corrected;
-    // Both rules are allowed, for each grain: the program has moved it by one velocity or the
-    // other.
-    return std::min(corrected, defect(grain, twist_of(*grain.contact), step));
+    const Defect corrected = defect(grain, twist_of(grain.now), step);
+    if (!with_contact_velocity_ || !grain.contact) return corrected.larger();
+    // Both rules are allowed, for each grain, and for its place and its turn: the program has taken
+    // one velocity or the other.
+    const Defect contact = defect(grain, twist_of(*grain.contact), step);
+    return Defect{std::min(corrected.apart, contact.apart), std::min(corrected.turn, contact.turn)}
+        .larger();
 }
 
 /// Whether contact impulses act on a grain, apart from what is left of a sum that cancels out.
@@ -316,7 +316,8 @@ void MotionRule::check_leavers(const std::vector<Leaver>& leavers, const Motion&
 bool MotionRule::has_moved_with_its_kick(const Grain& grain, const Kicks& kicks,
                                          double step) const {
     return std::any_of(kicks.kicks.begin(), kicks.kicks.end(), [&](const Kick& kick) {
-        return kick.id == grain.now.id && defect(grain, twist_of(kick), step) <= same_place();
+        return kick.id == grain.now.id &&
+               defect(grain, twist_of(kick), step).larger() <= same_place();
     });
 }
 
@@ -367,13 +368,18 @@ MotionDefect MotionRule::check_state(const Window& window, const Motion& before,
     return largest;
 }
 
-std::string MotionRule::text(const Grain& grain, double found, double can, double step) {
+std::string MotionRule::text(const Grain& grain, double found, double can, double step) const {
     const auto& [then, contact, now] = grain;
+    const bool either = with_contact_velocity_ && contact;
     return fmt::format(
         "grain {} went from {} and (w, x, y, z) {} to {} and {}, which is {:.3g} from where its "
-        "velocity {} and angular velocity {} take it in dt = {:.6g}, {:.3g} allowed",
+        "velocity {} and angular velocity {}{} take it in dt = {:.6g}, {:.3g} allowed",
         now.id, words(then.position), words(then.orientation), words(now.position),
-        words(now.orientation), found, words(now.velocity), words(now.angular_velocity), step, can);
+        words(now.orientation), found, words(now.velocity), words(now.angular_velocity),
+        either ? fmt::format(", or those of its contacts, {} and {},", words(contact->velocity),
+                             words(contact->angular_velocity))
+               : "",
+        step, can);
 }
 
 }  // namespace turbidite

@@ -11,7 +11,8 @@
 //     removed      a grain leaves where a side is free and it was at that side
 //
 // U is U^{n+1}, or U^{n+4/5} where grains may move with the velocities of their contacts
-// (coupling.positions: contact, and schemes whose grains solve contacts with the fluid's inertia).
+// (coupling.positions: contact, and schemes whose grains solve contacts with the fluid's inertia);
+// omega is either of both, too, whichever U is.
 //
 // What a state may differ from its rule by is round-off. More only for a grain with a contact,
 // i.e. one with a contact impulse, or one near enough to others or a wall that impulses may have
@@ -26,6 +27,7 @@
 // and, with native sub-steps and no fluid, for a free one: dt |U^{n+1} - U^n|.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -70,13 +72,20 @@ class MotionRule {
     struct Grain;   ///< one grain in the messages of a window
     struct Limits;  ///< of a window
 
+    /// From where a velocity takes a grain [m].
+    struct Defect {
+        double apart = 0.0;
+        double turn = 0.0;  ///< on its circumference
+        double larger() const { return std::max(apart, turn); }
+    };
+
     void check_given(const Window& window, const Gathered& sent) const;
     void check_leavers(const std::vector<Leaver>& leavers, const Motion& before,
                        const Arrival& arrival, const Limits& limits) const;
-    double defect(const Grain& grain, const Twist& rates, double step) const;
+    Defect defect(const Grain& grain, const Twist& rates, double step) const;
     double smallest_defect(const Grain& grain, double step) const;
     bool has_moved_with_its_kick(const Grain& grain, const Kicks& kicks, double step) const;
-    static std::string text(const Grain& grain, double found, double can, double step);
+    std::string text(const Grain& grain, double found, double can, double step) const;
     Limits limits(const Window& window, const Motion& before, const Motion& contact,
                   const Motion& state) const;
     double allowed_alone(const Grain& grain, double step) const;

@@ -27,6 +27,7 @@ class Sums {
     void add_point(const ContactRecord& contact) {
         const Vec3& p = contact.impulse;
         const Vec3& l = contact.branch;
+        network_.has_branches = network_.has_branches && l != Vec3{};
         network_.virial.xx += p[0] * l[0] / step_;  // f l^T, f = p/dt
         network_.virial.yy += p[1] * l[1] / step_;
         network_.virial.xy += 0.5 * (p[0] * l[1] + p[1] * l[0]) / step_;

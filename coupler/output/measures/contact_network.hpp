@@ -38,6 +38,7 @@ struct ContactNetwork {
     std::optional<double> normal_force;   ///< mean over links between grains [N]
     std::optional<double> sliding_share;  ///< of all contact points, those at the friction limit
     Symmetric3 virial;                    ///< its symmetric part [N m]
+    bool has_branches = true;             ///< without them the virial is of no meaning
 };
 
 /// `contacts` in the order of contact_before; `grains` is the number of grains, `step` the time

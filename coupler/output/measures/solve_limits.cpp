@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "coupler/protocol/hello.hpp"
 #include "coupler/protocol/scene/splitting.hpp"
 
 namespace turbidite {
@@ -15,7 +16,18 @@ SolveLimit limit(const Settings& settings, const char* iterations, const char* t
     return result;
 }
 
+/// No key is known to be a user's program's own.
+std::string users_sentence(const RunStatistics& s) {
+    const double residual = s.contact_residuals.largest();
+    return fmt::format(
+        "in {} of {} windows the grains program says that its contact solver has not converged{}. "
+        "Allow it more iterations, or use a smaller time.step.",
+        s.maxima.unconverged_windows, s.windows_done,
+        residual > 0.0 ? fmt::format("; residual up to {:.1e}", residual) : "");
+}
+
 std::string contact_sentence(const RunStatistics& s, const SolveLimits& limits) {
+    if (limits.users_program) return users_sentence(s);
     return fmt::format(
         "in {} of {} windows the contact solver used up its {} sweeps (contact.iterations) before "
         "contact.tolerance = {:g} was met and no grain sank into a smaller one by a hundredth of "
@@ -68,6 +80,7 @@ std::string joint_sentence(const RunStatistics& s, const SolveLimits& limits) {
 
 SolveLimits solve_limits(const Settings& settings) {
     SolveLimits limits;
+    limits.users_program = settings.text("grains.adapter") == users_program;
     limits.contact = limit(settings, "contact.iterations", "contact.tolerance");
     limits.multipliers =
         limit(settings, "fluid.multiplier_iterations", "fluid.multiplier_tolerance");

@@ -17,6 +17,7 @@ struct SolveLimit {
 };
 
 struct SolveLimits {
+    bool users_program = false;  ///< moves the grains, about which no key is known
     SolveLimit contact;          ///< contact.iterations, contact.tolerance (natural map, scaled)
     SolveLimit splitting;        ///< fluid.splitting_iterations, fluid.splitting_tolerance [u_c/D]
     bool corrects_once = false;  ///< explicit-multiplier, which has no such tolerance

@@ -34,6 +34,7 @@ Everything passes through the C interface, turbidite.h, in libturbidite.so.
 """
 import atexit
 import collections
+import contextlib
 import ctypes
 import functools
 import os
@@ -60,8 +61,9 @@ _library = _loaded()
 def _before_mpi_finalize():
     if not _joins and 'TURBIDITE_MEMBER' in os.environ:
         # All others wait for this program, and MPI_Finalize, which mpi4py calls next, for them.
-        sys.stdout.flush()
-        sys.stderr.flush()
+        for stream in (sys.stdout, sys.stderr):
+            with contextlib.suppress(Exception):  # closed, absent, or its disk is full
+                stream.flush()
         os._exit(1)
     _library.turbidite_before_mpi_finalize()
 
@@ -279,6 +281,13 @@ def _shape(settings, index):
     return shape if shape.kind is not None else None
 
 
+def _text_of(error):
+    try:
+        return f'{type(error).__name__}: {error}'
+    except Exception:  # of its own __str__
+        return type(error).__name__
+
+
 def _guarded(call):
     """What a call raises ends the run, sys.exit as well: it would wait in MPI_Finalize for the others."""
     def guarded(_, *arguments):
@@ -286,9 +295,11 @@ def _guarded(call):
             call(*arguments)
             return 0
         except BaseException as error:
-            traceback.print_exc()
-            text = f'{type(error).__name__}: {error}'.replace('\0', '\ufffd')
+            # First: stderr may be closed, or its disk full.
+            text = _text_of(error).replace('\0', '\ufffd')
             _library.turbidite_fail(text.encode(errors='replace'), isinstance(error, PhysicsRefused))
+            with contextlib.suppress(Exception):
+                traceback.print_exc()
             return 1
     return guarded
 

@@ -33,6 +33,19 @@ std::filesystem::path file_of(const std::filesystem::path& run, Role role, int r
     return folder(run) / (std::string(role_name(role)) + "." + std::to_string(rank));
 }
 
+/// Four lines in the order in which begin_start_record writes them; without them there is no
+/// record.
+bool read_head(std::istream& file, StartRecord& record) {
+    std::string pid;
+    if (!std::getline(file, record.host) || !std::getline(file, pid) ||
+        !std::getline(file, record.program) || !std::getline(file, record.log))
+        return false;
+    for (std::string* text : {&record.host, &record.program, &record.log})
+        *text = received_line(*text);
+    record.pid = std::atol(pid.c_str());
+    return true;
+}
+
 std::string who(const StartRecord& record) {
     return rank_name(record.role, record.rank) + " (" + record.program + ", host " + record.host +
            ", pid " + std::to_string(record.pid) + ", log " + record.log + ")";
@@ -66,21 +79,21 @@ void note_start(StartStep step) {
         if (entry.step == step) std::ofstream(file, std::ios::app) << entry.name << "\n";
 }
 
+std::string started_log() {
+    const char* name = std::getenv(member_variable);
+    if (!name) return "";
+    std::ifstream file(name);
+    StartRecord record;
+    return read_head(file, record) ? record.log : "";
+}
+
 std::optional<StartRecord> read_start_record(const std::filesystem::path& run, Role role,
                                              int rank) {
     std::ifstream file(file_of(run, role, rank));
     StartRecord record;
     record.role = role;
     record.rank = rank;
-    std::string pid;
-    // Four lines in the order in which begin_start_record writes them; without them there is no
-    // record.
-    if (!std::getline(file, record.host) || !std::getline(file, pid) ||
-        !std::getline(file, record.program) || !std::getline(file, record.log))
-        return std::nullopt;
-    for (std::string* text : {&record.host, &record.program, &record.log})
-        *text = received_line(*text);
-    record.pid = std::atol(pid.c_str());
+    if (!read_head(file, record)) return std::nullopt;
     for (std::string line; std::getline(file, line);)
         for (const StepName& entry : step_names) {
             // Unknown lines are those of other versions.

@@ -39,6 +39,9 @@ std::string begin_start_record(const std::filesystem::path& run, const StartReco
 /// The program: notes that it is about to take a step. Does nothing without turbidite-member.
 void note_start(StartStep step);
 
+/// The log that turbidite-member has opened for this program; empty without turbidite-member.
+std::string started_log();
+
 /// Empty if turbidite-member has not written one.
 std::optional<StartRecord> read_start_record(const std::filesystem::path& run, Role role, int rank);
 

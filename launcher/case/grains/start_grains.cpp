@@ -107,6 +107,16 @@ bool is_leaving(const PlacedGrain& grain, const PackingBox& box, const Settings&
     });
 }
 
+/// Positions of outside programs may run on across cyclic sides.
+void wrap(PlacedGrain& grain, const PackingBox& box, const Settings& settings) {
+    double* const place[] = {&grain.x, &grain.y, &grain.z};
+    const double length[] = {box.width, box.height, box.depth};
+    for (const BoxSide& side : box_sides)
+        if (side.inward > 0.0 && is(settings, side.key, "cyclic"))
+            *place[side.axis] -=
+                length[side.axis] * std::floor(*place[side.axis] / length[side.axis]);
+}
+
 /// From sqrt(g D), of a pouring, to u_c; spins from sqrt(g/D) to 1/t_c have the same factor.
 void convert_rates(Packing& grains, const Scales& scales) {
     const double factor = std::sqrt(scales.gravity * scales.diameter) / scales.velocity;
@@ -142,6 +152,7 @@ StartGrains grains_of(const EarlierStart& start, const Settings& settings,
     std::vector<std::string> notes{
         fmt::format("grains taken from {} at {:.6g} t_c", read.source, read.time)};
     const PackingBox box = packing_box(settings);
+    for (PlacedGrain& grain : read.grains) wrap(grain, box, settings);
     const auto left = std::erase_if(
         read.grains, [&](const PlacedGrain& grain) { return is_leaving(grain, box, settings); });
     if (read.grains.empty())

@@ -228,7 +228,9 @@ class ContactGrains final : public GrainsAdapter {
             record.normal = {pair.nx, pair.ny, 0.0};
             record.point = {b.position[0] - b.radius * pair.nx, b.position[1] - b.radius * pair.ny,
                             0.0};
-            record.branch = {b.radius * pair.nx, b.radius * pair.ny, 0.0};
+            // From the centre of a, or of the wall's point
+            const double reach = pair.a >= 0 ? 2.0 * b.radius + pair.gap : b.radius;
+            if (!fault("no branch")) record.branch = {reach * pair.nx, reach * pair.ny, 0.0};
             record.impulse = {share * (pair.normal * pair.nx - pair.tangential * pair.ny),
                               share * (pair.normal * pair.ny + pair.tangential * pair.nx), 0.0};
             all.push_back(record);

@@ -139,6 +139,18 @@ TEST_F(EarlierRuns, TheNewRunFolderHoldsThem) {
     EXPECT_EQ(read.settings.real("grains.overlap"), 0.2);  // limits.penetration
 }
 
+// Programs may let positions run on across cyclic sides.
+TEST_F(EarlierRuns, PositionsBeyondACyclicSideAreWrapped) {
+    write_case();
+    const std::vector<std::string> cyclic = {"domain.left=cyclic", "domain.right=cyclic"};
+    const ResolvedCase inside = start("", cyclic);
+    folder.write("old/grains/b.vtp", points(1.5 + 30.0));
+    const ResolvedCase later = start("", cyclic);
+    ASSERT_EQ(later.population.size(), inside.population.size());
+    for (std::size_t i = 0; i < inside.population.size(); ++i)
+        EXPECT_NEAR(later.population[i].position[0], inside.population[i].position[0], 1e-12);
+}
+
 // An output shows a grain until no part of it is inside.
 TEST_F(EarlierRuns, GrainsBeyondAFreeSideAreLeftOut) {
     write_case();

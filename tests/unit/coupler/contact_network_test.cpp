@@ -100,6 +100,15 @@ TEST(ContactNetwork, StressOfATowerIsItsWeightTimesHeight) {
 }
 
 // Shear: different forces at +45 and -45 degrees; the tensor stays symmetric.
+// Programs that fill in impulses alone: zero would be taken for a stress.
+TEST(ContactNetwork, HasNoStressWithoutBranches) {
+    std::vector<ContactRecord> contacts = {push(1, 2, 0.0), on_floor(2)};
+    std::sort(contacts.begin(), contacts.end(), contact_before);
+    EXPECT_TRUE(contact_network(contacts, 2, step).has_branches);
+    contacts[1].branch = {};
+    EXPECT_FALSE(contact_network(contacts, 2, step).has_branches);
+}
+
 TEST(ContactNetwork, ReportsShear) {
     const auto network =
         contact_network({push(1, 2, pi / 4, 3.0), push(3, 4, -pi / 4, 1.0)}, 4, step);

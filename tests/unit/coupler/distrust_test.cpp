@@ -85,6 +85,33 @@ TEST_F(Distrust, AGrainMissingAfterTheContacts) {
                 "the first one missing is grain 100", "in \"motion\" of window 3"});
 }
 
+// All three have the same place among all grains: the last of one rank has become the first of the
+// next.
+TEST(GrainRosterRanks, AGrainThatChangedItsRankIsAskedForWhereItWas) {
+    const std::vector<GrainState> all = test_population();
+    const auto shares = [&](std::size_t of_first) {
+        std::vector<Motion> result(2);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            result[i < of_first ? 0 : 1].grains.push_back(all[i]);
+        return result;
+    };
+    auto [channel, ends] = LoopbackChannel::connect(2);
+    const ParticipantLink link(Role::grains, *channel);
+    const Arrival arrival(link, Kind::state, 5);
+    GrainRoster roster(all);
+    EXPECT_TRUE(roster.check(shares(2), arrival).empty());
+    EXPECT_TRUE(roster.check(shares(1), arrival).empty());
+    std::vector<Motion> without = shares(1);
+    without[1].grains.erase(without[1].grains.begin());
+    try {
+        roster.check(without, arrival);
+        FAIL() << "nothing was refused";
+    } catch (const PhysicsRefused& refused) {
+        EXPECT_NE(std::string(refused.what()).find("grains rank 1"), std::string::npos)
+            << refused.what();
+    }
+}
+
 // What counts is `state`: grains leave when they move, not in a contact problem.
 TEST_F(Distrust, AGrainThatTheContactsAnnounceAsRemoved) {
     grains_send(Kind::motion, [](Motion& m) {

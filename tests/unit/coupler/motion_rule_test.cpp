@@ -129,6 +129,18 @@ TEST_F(MotionRuleTest, ContactVelocitiesMoveGrainsOnlyWhereTheCaseSaysSo) {
     EXPECT_EQ(refusal(), "");
 }
 
+// Place and turn may each be those of either velocity (docs/write-an-adapter.md).
+TEST_F(MotionRuleTest, AGrainMayGoWithItsContactAndTurnWithItsKick) {
+    for (GrainState& grain : state.grains) grain = moved(grain, 0.0, dt * 0.01);
+    settings.set("coupling.positions", std::string("contact"));
+    EXPECT_EQ(refusal(), "");  // place of U^{n+4/5}, turn of omega^{n+1}
+    second().orientation = about_z(dt * 0.35);
+    const std::string refused = refusal();
+    EXPECT_NE(refused.find(", or those of its contacts, (0.3, -0.21, 0) and (0, 0, 0),"),
+              std::string::npos)
+        << refused;
+}
+
 // |U^{n+1} - U^{n+4/5}| = |U^{n+4/5} - U^n| = 0.01, R |d omega| = 0.35: 3.7e-3 and the overlap.
 TEST_F(MotionRuleTest, OneStepPerWindowMovesWithAVelocityOfTheWindow) {
     push(0.01);

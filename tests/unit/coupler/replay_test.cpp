@@ -195,6 +195,28 @@ TEST_F(Replayed, ARecordingThatWasCutOffIsPlayedToItsEnd) {
     EXPECT_EQ(report.differences, 0);
 }
 
+// A run that stalls: who was still there has said farewell, and the job was ended before it could
+// be released.
+TEST_F(Replayed, ARecordingThatEndsWithAFarewellIsPlayed) {
+    std::uintmax_t releases = 0;
+    int farewells = 0;
+    Recording whole(file("grains"));
+    while (const auto frame = whole.next()) {
+        const Kind kind = unframe(frame->bytes).envelope.kind;
+        if (kind == Kind::farewell) ++farewells;
+        // Sender, peer and length stand before each.
+        if (kind == Kind::release) releases += 3 * sizeof(std::int64_t) + frame->bytes.size();
+    }
+    ASSERT_EQ(farewells, 2);
+    ASSERT_GT(releases, 0u);
+    std::filesystem::resize_file(file("grains"),
+                                 std::filesystem::file_size(file("grains")) - releases);
+    const ReplayReport report = grains_again(4.4995);
+    EXPECT_FALSE(report.complete);
+    EXPECT_EQ(report.windows, job.settings.integer("run.windows"));
+    EXPECT_EQ(report.differences, 0);
+}
+
 /// As on a machine with a gigabyte, so that a faulty program asks in vain and does not get it.
 class LittleMemory {
  public:

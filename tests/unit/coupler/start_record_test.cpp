@@ -46,6 +46,10 @@ TEST_F(StartRecords, KeepWhoItIsAndTheLastStep) {
     EXPECT_EQ(record->program, "/bin/code");
     EXPECT_EQ(record->log, "logs/code.log");
     EXPECT_EQ(record->step, StartStep::split);
+    // The log is that of the program's place in the job, whatever rank it has in its own world.
+    EXPECT_EQ(started_log(), "logs/code.log");
+    ::unsetenv(member_variable);
+    EXPECT_EQ(started_log(), "");
     EXPECT_FALSE(read_start_record(scratch.path(), Role::grains, 0));
 }
 
