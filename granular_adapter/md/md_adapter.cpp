@@ -11,6 +11,7 @@
 #include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/grains/by_grain.hpp"
 #include "granular_adapter/grains/case_bodies.hpp"
+#include "granular_adapter/md/first_positions.hpp"
 #include "granular_adapter/md/rows.hpp"
 #include "granular_adapter/nscd/engine/engine.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
@@ -103,8 +104,8 @@ Motion MdAdapter::initialise(const Settings& settings, const ShapeTable& shapes,
     agree([&] {
         if (const auto light = first_light_grain(run_, shapes, grains)) refuse_light_grain(*light);
         add_grains(bodies_, run_, shapes, grains);
-        // x = q - (dt - s)/2 U: from the positions of the protocol to those of the host.
-        nscd::move(bodies_, bodies_.twist, -lead(), box_);
+        // From the positions of the protocol to those of the host.
+        ahead_ = take_first_positions(bodies_, lead(), run_, shapes, walls_of(borders_));
         check_inside(bodies_, borders_, "at the start");
     });
     if (broken_) return motion(bodies_);
@@ -168,7 +169,7 @@ void MdAdapter::repeat(const Window& window, const std::vector<FreeResponse>& ta
             held[i].angular_impulse +
             bodies_.world_inertia(i) * (ordered[i]->angular_velocity - found.spin);
     }
-    restore(present_.start);
+    read(present_.start);
     held_ = std::move(held);
 }
 
@@ -237,6 +238,7 @@ Motion MdAdapter::apply_kick(const Window& window, const std::vector<Kick>& kick
         if (run_.wet || !kicks.empty()) take_kicks(window, kicks);
         check_inside(bodies_, borders_, in_window(window) + " after the kick", stiffer);
     });
+    ahead_.reset();  // the first window is over
     if (!broken_) remove_leavers();
     report_.wall_seconds = seconds_since(start);
     Motion result = motion(at_protocol_positions());
@@ -311,6 +313,7 @@ void MdAdapter::follow_migration(nscd::Bodies* sent) {
         nscd::Bodies::for_each_array(bodies_, each);
         if (sent) nscd::Bodies::for_each_array(*sent, each);
         each(held_);
+        if (ahead_) each(*ahead_);
     };
     // One row of bytes per body, with all arrays in the same order on both sides.
     visit([&](auto& array) { packer.measure(array); });
@@ -323,6 +326,11 @@ void MdAdapter::follow_migration(nscd::Bodies* sent) {
 nscd::Bodies MdAdapter::at_protocol_positions() const {
     nscd::Bodies sent = bodies_;
     nscd::move(sent, sent.twist, lead(), box_);
+    for (std::size_t i = 0; ahead_ && i < ahead_->size(); ++i)
+        if ((*ahead_)[i]) {
+            sent.position[i] = bodies_.position[i];
+            sent.orientation[i] = bodies_.orientation[i];
+        }
     return sent;
 }
 
@@ -346,6 +354,11 @@ SavedState MdAdapter::save() const {
 }
 
 void MdAdapter::restore(const SavedState& state) {
+    ahead_.reset();
+    read(state);
+}
+
+void MdAdapter::read(const SavedState& state) {
     nscd::ByteReader reader(state);
     nscd::Bodies::for_each_array(bodies_, [&](auto& array) {
         array = reader.array<typename std::decay_t<decltype(array)>::value_type>();

@@ -17,6 +17,9 @@
 //
 //     q = x + (dt - s)/2 U
 //
+// but for grains that this would begin inside others (first_positions.hpp): they are at q, and half
+// a window ahead of the case.
+//
 // A grain without contact in the window is moved as if the kick had acted all along,
 //
 //     x^{n+1} = x' + (dt + s)/2 (U^{n+1} - U^{n+4/5})
@@ -92,6 +95,7 @@ class MdAdapter final : public GrainsAdapter {
     template <class Check>
     void agree(Check check);
     void remove_leavers();
+    void read(const SavedState& state);
     void follow_migration(nscd::Bodies* sent);
     nscd::Bodies at_protocol_positions() const;
     Motion motion(const nscd::Bodies& bodies) const;
@@ -107,6 +111,8 @@ class MdAdapter final : public GrainsAdapter {
     nscd::Bodies bodies_;  ///< at the host's positions
     std::vector<Held> held_;
     Present present_;
+    /// In the first window: bodies whose host position is that of the protocol.
+    std::optional<std::vector<std::uint8_t>> ahead_;
     bool broken_ = false;   ///< another rank has failed: nothing may be exchanged with it any more
     ContactReport report_;  ///< of this window
 };

@@ -7,6 +7,8 @@
 #include <functional>
 #include <numbers>
 
+#include "granular_adapter/grains/case_bodies.hpp"
+#include "granular_adapter/md/first_positions.hpp"
 #include "granular_adapter/nscd_adapter/nscd_adapter.hpp"
 #include "tests/unit/md/leap_frog_host.hpp"
 #include "tests/unit/nscd_adapter/contact_case.hpp"
@@ -25,6 +27,13 @@ Settings md_settings() {
     settings.set("run.step", dt);
     settings.set("run.md_substeps", std::int64_t{8});
     return settings;
+}
+
+nscd::Wall floor_at_zero() {
+    nscd::Wall wall;
+    wall.key = 2;
+    wall.normal = {0.0, 1.0, 0.0};
+    return wall;
 }
 
 Window window(std::int64_t index, bool output = false) {
@@ -61,6 +70,63 @@ std::string refusal(const std::function<void()>& call) {
 
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
+}
+
+/// A disc that parts from the floor at a gap of 0.001, from which half a window takes it back by
+/// 0.01.
+GrainState parting() {
+    GrainState grain = grain_at(7, 5.0, 0.501);
+    grain.velocity = {0.1, 2.0, 0.0};
+    grain.angular_velocity = {0.0, 0.0, 1.0};
+    return grain;
+}
+
+TEST(FirstPositions, WhatPartsFromAWallIsWhereTheCaseSaysAndKeepsItsVelocity) {
+    LeapFrogHost host;
+    MdAdapter adapter("yade-md", host);
+    Settings settings = md_settings();
+    settings.set("fluid.enabled", false);
+    const GrainState start = adapter.initialise(settings, discs, {parting()}).grains[0];
+    EXPECT_EQ(start.position, parting().position);
+    EXPECT_EQ(start.orientation, parting().orientation);
+    const Motion motion = adapter.advance(window(0), {});
+    EXPECT_EQ(motion.grains[0].position, parting().position);
+    EXPECT_EQ(motion.report.contacts, 0);
+    EXPECT_EQ(motion.report.max_penetration, 0.0);
+    const GrainState once = adapter.apply_kick(window(0), {}).grains[0];
+    EXPECT_NEAR(once.velocity[1], 2.0 - dt, 1e-12);  // g = 1
+    // A window, and the half of one that it is ahead; with the lag of leap-frog, 7/16.
+    EXPECT_NEAR(once.position[0], 5.0 + 0.1 * dt * (1.0 + 7.0 / 16.0), 1e-12);
+    // From then on as all others: q <- q + dt U.
+    adapter.advance(window(1), {});
+    const GrainState twice = adapter.apply_kick(window(1), {}).grains[0];
+    EXPECT_NEAR(twice.position[0], once.position[0] + 0.1 * dt, 1e-12);
+}
+
+TEST(FirstPositions, WhatComesOrIsAloneBeginsHalfAWindowBehind) {
+    const RunValues run = run_values(md_settings());
+    for (const auto& [y, speed] : {std::pair{0.501, -2.0}, std::pair{3.0, 2.0}}) {
+        GrainState grain = parting();
+        grain.position[1] = y, grain.velocity[1] = speed;
+        nscd::Bodies bodies;
+        add_grains(bodies, run, discs, {grain});
+        const auto stays = take_first_positions(bodies, 0.005, run, discs, {floor_at_zero()});
+        EXPECT_EQ(stays[0], 0);
+        EXPECT_NEAR(bodies.position[0][1], y - 0.005 * speed, 1e-15);
+    }
+}
+
+// The one that parts from the floor stays, so that the next one would begin in it, and stays too.
+TEST(FirstPositions, WhoWouldBeginInOneThatStaysStaysToo) {
+    const RunValues run = run_values(md_settings());
+    GrainState next = parting(), far = parting();
+    next.id = 8, next.position[1] += 1.001;
+    far.id = 9, far.position[0] += 3.0, far.position[1] += 3.0;
+    nscd::Bodies bodies;
+    add_grains(bodies, run, discs, {parting(), next, far});
+    const auto stays = take_first_positions(bodies, 0.005, run, discs, {floor_at_zero()});
+    EXPECT_EQ(stays, (std::vector<std::uint8_t>{1, 1, 0}));
+    EXPECT_EQ(bodies.position[1], next.position);
 }
 
 /// One grain driven by an MdAdapter.
