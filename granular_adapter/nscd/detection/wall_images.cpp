@@ -10,9 +10,6 @@
 namespace turbidite::nscd {
 namespace {
 
-/// Above the features of any shape.
-constexpr std::int32_t features_per_image = 1 << 16;
-
 /// Smallest and largest shift of a wall along an axis, in periods.
 struct Shifts {
     int first = 0, last = 0;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "coupler/rigid/vec3.hpp"
+#include "granular_adapter/nscd/detection/space/space_walls.hpp"
 
 namespace turbidite::nscd {
 namespace {
@@ -238,6 +239,9 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
         ContactSituation now = situation(contacts, point);
         now.step = step;
         if (!share.empty()) now.share = share[k];
+        const bool gives_way = now.share == 0.0;
+        // A round wall pulls a sphere that just fits into it once, where it is nearest.
+        if (point.wall >= 0 && is_further_point(wall_of(contacts, point), point)) now.share = 0.0;
         if (law_.reads_velocities()) {
             // u^- = H^T U - v_wall of the start of the step; the same of the free velocities below.
             approach = contact_velocity(contact, contacts.bodies.twist) - drive;
@@ -253,8 +257,8 @@ ContactProblem ContactLaws::pose(const DetectedContacts& contacts, const std::ve
                        wall_spin(contacts, point), settings_.dimension == 2);
         // At an edge where another wall is nearer an impact sees the film, which acts there.
         if (filmed)
-            problem.films.push_back(
-                now.share == 0.0 ? Film{} : film_in(terms.film, terms.normal_bias, step));
+            problem.films.push_back(gives_way ? Film{}
+                                              : film_in(terms.film, terms.normal_bias, step));
         if (law_.remembers()) situations_.push_back(now), terms_.push_back(terms);
         if (terms.attraction != 0.0) {
             attraction_.resize(contacts.points.size(), 0.0);

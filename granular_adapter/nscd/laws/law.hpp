@@ -47,7 +47,8 @@ struct ContactSituation {
     bool round = true;    ///< one of the two is round: the pair has a single contact point
     double length = 0.0;  ///< of the face that the point represents, else zero [m]
     /// One over the number of the pair's points within the law's range; 0 at the edge of a wall
-    /// where another is nearer (common_edges.hpp): no attraction.
+    /// where another is nearer (common_edges.hpp), and on the other sides of a sphere that just
+    /// fits into a round wall: no attraction.
     double share = 1.0;
     Magnitudes approach;    ///< u^-: at the start of the step, wall motion included [m/s]
     Magnitudes free;        ///< u without contact impulses [m/s]

@@ -246,6 +246,46 @@ TEST(SpaceWalls, ASphereComesToRestInAHole) {
     EXPECT_NEAR(engine.bodies().contact_impulse[0][1], engine.bodies().mass[0] * 0.005, 1e-5);
 }
 
+/// The attraction [N] of a sphere by a wall that it touches in `points` places.
+double attraction_by(const Wall& wall, const Vec3& centre, const char* law, std::size_t points) {
+    EngineSettings settings = scenes::exact_in_space(0.0, 1e-8);
+    settings.gravity = {};
+    Surface surface;
+    surface.friction = 0.0;
+    surface.adhesion = 10.0;
+    settings.surfaces = {surface};
+    settings.law.adhesion = law;
+    settings.law_settings.adhesion_range = 0.05;
+    settings.law_settings.adhesion_length = 0.02;
+    settings.law_settings.adhesion_shear = 1.0;
+    Engine engine(settings, scenes::spheres, {wall});
+    engine.bodies().add(scenes::sphere(1, centre));
+    constexpr double step = 1e-3;
+    double sum = 0.0;
+    // A bond or a bridge that forms in the first step pulls from the second on.
+    for (int n = 0; n < 2; ++n) {
+        engine.step(step);
+        EXPECT_EQ(engine.points().size(), points) << law;
+        sum = 0.0;
+        for (std::size_t k = 0; k < engine.points().size(); ++k)
+            sum += (engine.solution()[k].n - engine.impulses()[k].n) / step;
+        engine.move(step);
+    }
+    return sum;
+}
+
+// It was pulled, and bonded, by all four places where it touched.
+TEST(SpaceWalls, AConePullsASphereThatFitsIntoItOnce) {
+    Wall cone = scenes::round_wall(6, {}, {0, 1, 0}, {0.05, 0.05}, {3.0, 3.0});
+    Wall floor = scenes::floor(0.0);
+    cone.material = floor.material = 0;
+    for (const char* law : {"wet", "cohesion", "capillary"}) {
+        const double once = attraction_by(floor, {0, 0.5, 0}, law, 1);
+        EXPECT_GT(once, 9.0) << law;
+        EXPECT_NEAR(attraction_by(cone, {0, std::sqrt(0.5), 0}, law, 4), once, 1e-6 * once) << law;
+    }
+}
+
 TEST(SpaceWalls, RefuseWhatIsNoSurface) {
     const auto refused = [](const Wall& wall) {
         try {

@@ -19,4 +19,7 @@ void check_space_wall(const Wall& wall);
 /// 3 more for each further point of a sphere that just fits into a round wall.
 void sphere_wall(const WallView& view, std::vector<ContactPoint>& points);
 
+/// Whether it is such a further point, and not that of the place nearest to the sphere.
+bool is_further_point(const Wall& wall, const ContactPoint& point);
+
 }  // namespace turbidite::nscd
