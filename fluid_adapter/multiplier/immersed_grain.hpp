@@ -52,11 +52,16 @@ struct ImmersedGrain {
     /// mean pressure gradient that it stands for on V(R). None where the motion is prescribed.
     Vec3 driving_impulse{};
     FluidBeyond beyond{};   ///< of a grain that leaves
-    Twist motion_before{};  ///< U^n, omega^n, with which the fluid beyond moves
+    Twist motion_before{};  ///< U^n, omega^n
     /// By which the position has changed since the last window [m]; zero where no cell is to be
     /// told apart by it.
     Eigen::Vector3d moved = Eigen::Vector3d::Zero();
     Vec3 stream_gain{};  ///< a dt, which the body force has given all fluid since U^n [m/s]
+
+    /// Of fluid that has moved with it and felt the body force: that beyond a free side.
+    Twist fluid_before() const {
+        return {motion_before.velocity + stream_gain, motion_before.spin};
+    }
 
     /// Momentum before the multipliers act: cM U^{n+4/5} + (M - m_f) g dt + J^n - J_h, the driving
     /// impulse, and the momentum of the fluid beyond a free side. J_h is already contained in
@@ -64,8 +69,8 @@ struct ImmersedGrain {
     Impulse momentum() const {
         const Impulse own{effective_mass * contact_motion.velocity,
                           effective_inertia * contact_motion.spin};
-        return own + beyond.momentum(motion_before) + given_impulse + Impulse{driving_impulse, {}} -
-               announced_impulse;
+        return own + beyond.momentum(fluid_before()) + given_impulse +
+               Impulse{driving_impulse, {}} - announced_impulse;
     }
 };
 

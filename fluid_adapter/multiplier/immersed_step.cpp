@@ -101,6 +101,7 @@ void ImmersedStep::take(const std::vector<GrainState>& states, const Window& win
         index_.emplace(state.id, grains_.size());
         grains_.push_back(immersed(state));
         grains_.back().driving_impulse = driving(state, window.step);
+        grains_.back().stream_gain = window.step * run_.acceleration;
     }
     // Grains have the numbers below this; walls follow, which get no responses and no kicks.
     states_ = grains_.size();
@@ -157,7 +158,6 @@ void ImmersedStep::note_moved(ImmersedGrain& grain, const Window& window) const 
     if (window.index == 0 || norm(grain.motion_before.velocity) <= agreement_.tolerance) return;
     const Vec3 moved = window.step * grain.motion_before.velocity;
     grain.moved = {moved[0], moved[1], moved[2]};
-    grain.stream_gain = window.step * run_.acceleration;
 }
 
 /// (M - m_f) g dt: buoyancy is that of R, not of R_h.
@@ -314,7 +314,7 @@ std::vector<Kick> ImmersedStep::kicks() const {
         // The driving impulse is in the momentum of step 5, so the balance of the grain needs it
         // here. The fluid has not lost it: impulse_to_grains is without.
         // Nor has it what the fluid beyond a free side loses.
-        const Impulse beyond = grains_[g].beyond.momentum(grains_[g].motion_before) -
+        const Impulse beyond = grains_[g].beyond.momentum(grains_[g].fluid_before()) -
                                grains_[g].beyond.momentum(motion);
         kick.multiplier_impulse = impulse.linear + beyond.linear + grains_[g].driving_impulse;
         kick.multiplier_angular_impulse = impulse.moment + beyond.moment;

@@ -133,9 +133,7 @@ Eigen::Vector3d SlipReturn::velocity(const CellPlace& at) const {
 Eigen::Vector3d SlipReturn::slip(const ImmersedGrain& sphere, const CellPlace& at,
                                  const Eigen::Vector3d& arm) const {
     // What a body force has given to all fluid is none.
-    Twist motion = sphere.motion_before;
-    motion.velocity = motion.velocity + sphere.stream_gain;
-    return velocity(at) - rigid_velocity(motion, arm);
+    return velocity(at) - rigid_velocity(sphere.fluid_before(), arm);
 }
 
 /// Where the momentum that the sphere gives counts: in the cells that get it, or, behind it, in

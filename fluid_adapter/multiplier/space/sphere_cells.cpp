@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "fluid_adapter/multiplier/neighbours.hpp"
@@ -177,8 +178,12 @@ void SphereCells::join_shut_in() {
     std::vector<CellOfGrain> joined;
     // Found once, by the covered neighbour at -x: no two runs end at the same cell.
     for (const CellOfGrain& of : beside_runs_)
-        if (is_shut_in(of.at)) joined.push_back({nearest(of.grain, of.at), of.at, of.arm});
-    // Only now: whether a cell is shut in does not depend on the order of the grains.
+        if (is_shut_in(of.at)) joined.push_back({nearest(of), of.at, of.arm});
+    // The sums of a sphere with several of them do not depend on the order of the grains.
+    std::sort(joined.begin(), joined.end(), [](const CellOfGrain& a, const CellOfGrain& b) {
+        return std::tie(a.at.j, a.at.k, a.at.i) < std::tie(b.at.j, b.at.k, b.at.i);
+    });
+    // Only now: nor does whether a cell is shut in.
     for (const CellOfGrain& of : joined) {
         const auto [i, j, k] = of.at;
         owners_.set(of.at, 1, CellOwners::shut_in);
@@ -201,15 +206,19 @@ bool SphereCells::is_shut_in(const CellPlace& at) const {
     return true;
 }
 
-/// Of a grain and its neighbours.
-int SphereCells::nearest(int grain, const CellPlace& at) const {
+/// Of the spheres that cover the six cells around it; where walls do, the one that it follows.
+int SphereCells::nearest(const CellOfGrain& of) const {
     const auto key = [&](int g) {
-        return std::make_pair(power(g, at.i, at.j, at.k), (*grains_)[g].id);
+        return std::make_pair(power(g, of.at.i, of.at.j, of.at.k), (*grains_)[g].id);
     };
-    int best = grain;
-    for (const int other : neighbours_[grain])
-        if (key(other) < key(best)) best = other;
-    return best;
+    int best = CellOwners::none;
+    for (const int axis : {x, y, z})
+        for (const int side : {-1, 1}) {
+            const int owner = owners_[of.at.beside(axis, side)];
+            if (owner < 0 || (*grains_)[owner].wall) continue;
+            if (best < 0 || key(owner) < key(best)) best = owner;
+        }
+    return best < 0 ? of.grain : best;
 }
 
 const Wedges& SphereCells::find_wedges() {

@@ -4,8 +4,8 @@
 // that its centre lies in; of several, to that with the smallest power |r|^2 - R_h^2, so that a
 // plane divides two spheres that overlap (the smaller id where it is equal, to rounding either).
 // Cells of walls (wall_cells.hpp) are no sphere's. A cell of none whose six neighbours are covered,
-// or beyond a side, joins the sphere of the smallest power or the wall beside it along x: its
-// pressure would be tied to no other. Valid C++17.
+// or beyond a side, joins that of the spheres around it which has the smallest power, or a wall
+// where there are walls only: its pressure would be tied to no other. Valid C++17.
 #pragma once
 
 #include <cstdint>
@@ -72,7 +72,7 @@ class SphereCells {
                    const Eigen::Vector3d& arm);
     void join_shut_in();
     bool is_shut_in(const CellPlace& at) const;
-    int nearest(int grain, const CellPlace& at) const;
+    int nearest(const CellOfGrain& of) const;
     CellPlace place_of(int cell) const;
     const CellGrid& grid() const { return *cells_.grid; }
 

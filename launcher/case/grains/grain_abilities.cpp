@@ -116,9 +116,13 @@ std::function<double(const PlacedGrain&)> density_of_grains(const Settings& sett
 /// sphere is in the mesh. Least rho_r of 221 and 600 random places, shift 0.3: 0.17, 0.23, 0.21,
 /// 0.10, 0.07, 0.05 with 6 to 10 and 12 cells across; shift 0: 0.28 at most with 6, 0.12 with 8.
 /// With twelve others that touch it and take some cells, of 300 places: 0.34, 0.27, 0.19, 0.12 with
-/// 6, 7, 8 and 10.
-double lightest_of_cells(double across) {
-    return 15.0 / (across * across);
+/// 6, 7, 8 and 10. With a larger shift s they take more of R + s h, each a cap of s h, whose share
+/// of the moment of inertia is 60 s^2 (1 + 2 s/c)^2/c^2 of twelve: in fcc contact with 8 across 0.3
+/// to 0.4 for s = 0.4, to 0.6 for 0.5, 0.7 to 0.9 for 0.7 and 1.5 to 1.8 for 1.
+double lightest_of_cells(double across, double shift) {
+    const double caps =
+        60.0 * shift * shift * (1.0 + 2.0 * shift / across) * (1.0 + 2.0 * shift / across);
+    return std::max(15.0, 8.4 + caps) / (across * across);
 }
 
 /// Of what the rule of grains.density_ratio says nothing else has to be said.
@@ -172,17 +176,20 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
     // Effective mass and inertia must be above zero unless `joint` leaves them to the fluid.
     const auto density = density_of_grains(settings);
     const bool joint = find_scheme(settings.text("coupling.scheme")).needs_inertia();
+    const double shift = in_space(settings) ? settings.real("fluid.surface_shift") : 0.0;
     if (joint && in_space(settings))
         rules.push_back(
             {[=](const PlacedGrain& g) {
                  return g.radius > 0.0 && !g.prescribed &&
-                        density(g) < lightest_of_cells(across(g));
+                        density(g) < lightest_of_cells(across(g), shift);
              },
              [density](const PlacedGrain& g) { return fmt::format("density = {}", density(g)); },
              "A sphere as light as this may hold fewer cells of fluid than its volume "
              "displaces, and no positive mass is left: a density above 15/c^2 with c "
-             "cells across (0.23 with 8, 0.1 with 12).",
-             "Use more fluid.cells_per_diameter, or a larger density."});
+             "cells across (0.23 with 8, 0.1 with 12), with fluid.surface_shift s beyond 0.3 above "
+             "(8.4 + 60 s^2 (1 + 2 s/c)^2)/c^2 (with 8: 0.43 for 0.5, 1.6 for 1).",
+             "Use more fluid.cells_per_diameter, a smaller fluid.surface_shift, or a larger "
+             "density."});
     if (!joint)
         rules.push_back(
             {[settings, density, told = ratio_is_too_small(settings)](const PlacedGrain& g) {

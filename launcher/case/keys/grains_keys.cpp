@@ -220,7 +220,8 @@ KeyGroup grains_keys() {
                  .allowed =
                      "A ratio above 0. In a fluid without coupling.scheme: joint above 1, in space "
                      "above (R_h/R)^5, 1.44 at D/8; with joint in space above 15/c^2, c cells "
-                     "across; with fluid.splitting: marchuk-yanenko at least 0.5 V(R_h)/V(R), "
+                     "across, and more with fluid.surface_shift above 0.3; with fluid.splitting: "
+                     "marchuk-yanenko at least 0.5 V(R_h)/V(R), "
                      "for a single grain 0.25.",
                  .remedy = "Use for example 1.5."},
                 {.name = "grains.generator",

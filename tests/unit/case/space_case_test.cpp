@@ -185,16 +185,22 @@ TEST_F(SpaceCase, TangentialSpringsAreThoseOfWhatMovesInTheLiquid) {
 
 // What the cells hold is up to a tenth less than what the sphere displaces.
 TEST_F(SpaceCase, ALightSphereIsHeavierThanItsCellsMayLack) {
-    const auto said = [this](const std::string& density, const std::string& cells) {
+    const auto said = [this](const std::string& density, const std::string& cells,
+                             const std::string& shift = "0.3") {
         return refusal("",
                        {"fluid.enabled=true", "fluid.reynolds=10", "coupling.scheme=joint",
                         "fluid.splitting=explicit-multiplier", "fluid.cells_per_diameter=" + cells,
-                        "grains.density_ratio=" + density});
+                        "fluid.surface_shift=" + shift, "grains.density_ratio=" + density});
     };
     EXPECT_SAYS(said("0.2", "8"), "density = 0.2");
     EXPECT_SAYS(said("0.2", "8"), "a density above 15/c^2 with c cells across");
     EXPECT_EQ(said("0.24", "8"), "");
     EXPECT_EQ(said("0.2", "10"), "");
+    // Neighbours that touch take more of a surface that is shifted more.
+    EXPECT_SAYS(said("1.5", "8", "1"), "with fluid.surface_shift s beyond 0.3 above");
+    EXPECT_EQ(said("1.8", "8", "1"), "");
+    EXPECT_SAYS(said("0.4", "8", "0.5"), "density = 0.4");
+    EXPECT_EQ(said("0.6", "8", "0.5"), "");
 }
 
 TEST_F(SpaceCase, TheFluidSeesASphereOfSomeCells) {

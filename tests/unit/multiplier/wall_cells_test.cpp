@@ -285,6 +285,48 @@ TEST(WallCells, MoveWithTheWall) {
     EXPECT_LT(norm(constraint.impulse(0).linear - lost), 1e-12);
 }
 
+/// Owners of single cells between a plate and spheres, counted from the left, or from the right.
+std::vector<int> beside_a_plate(unsigned seed, bool mirrored, int& shut_in) {
+    const double middle = 1.5;
+    const auto mirror = [&](double x) { return mirrored ? 2.0 * middle - x : x; };
+    SpaceWall wall = plate({mirror(1.45), -0.5, -0.5}, {0.0, 4.0, 0.0}, {0.0, 0.0, 4.0});
+    wall.motion = constant_motion({{0.0, 1.0, 0.0}, {}});
+    const Walls walls({wall});
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(0.3, 2.7), size(0.4, 0.7);
+    std::vector<ImmersedGrain> bodies;
+    for (int id = 0; id < 14; ++id) {
+        const double px = place(random), py = place(random), pz = place(random);
+        bodies.push_back(sphere(id, {mirror(px), py, pz}, size(random)));
+    }
+    bodies.push_back(walls.bodies[0]);
+    const SpaceField field({30, 30, 30}, Side::wall);
+    SphereCells cells(field.layers());
+    cells.find(bodies);
+    shut_in = static_cast<int>(cells.shut_in());
+    std::vector<int> owner(field.owned_cells(), -1);
+    for (std::size_t g = 0; g < bodies.size(); ++g)
+        for (const CellRun& run : cells.runs(g))
+            for (int c = 0; c < run.count; ++c) {
+                const int i = run.cell % 30 + c;
+                owner[run.cell + c + (mirrored ? 29 - 2 * i : 0)] = static_cast<int>(g);
+            }
+    return owner;
+}
+
+/// Whichever side the wall is on.
+TEST(WallCells, ACellThatIsShutInJoinsTheSphereBesideAWall) {
+    int with_some = 0;
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        int here = 0, there = 0;
+        const std::vector<int> as_it_is = beside_a_plate(seed, false, here);
+        EXPECT_EQ(as_it_is, beside_a_plate(seed, true, there)) << seed;
+        EXPECT_EQ(here, there);
+        with_some += here > 0;
+    }
+    EXPECT_GT(with_some, 20);
+}
+
 /// A cell that is shut in by a wall moves as this image of it does, also farther than half a period
 /// from the pivot.
 TEST(WallCells, AShutInCellHasTheArmOfTheWallAroundIt) {
