@@ -97,6 +97,29 @@ std::vector<Source> in_order_of_ids(const std::vector<Motion>& shares) {
     return all;
 }
 
+/// Puts the same grains as before into the order of before: a program may return them in any order,
+/// and what is told apart by its place, as by fluids within a window, must not be mixed up. Other
+/// grains stay as they are, one that comes twice as well.
+void put_in_order(std::vector<GrainState>& grains, const GrainIndex& before) {
+    if (grains.size() != before.size()) return;
+    std::vector<std::size_t> places;
+    places.reserve(grains.size());
+    bool in_order = true;
+    for (std::size_t at = 0; at < grains.size(); ++at) {
+        places.push_back(before.place(grains[at].id, at));
+        if (places.back() == GrainIndex::nowhere) return;
+        in_order = in_order && places.back() == at;
+    }
+    if (in_order) return;
+    std::vector<GrainState> ordered(grains.size());
+    std::vector<std::uint8_t> taken(grains.size(), 0);
+    for (std::size_t at = 0; at < grains.size(); ++at) {
+        if (std::exchange(taken[places[at]], 1) != 0) return;
+        ordered[places[at]] = grains[at];
+    }
+    grains = std::move(ordered);
+}
+
 ContactReport report_of(const std::vector<Motion>& shares) {
     ContactReport report;
     for (const Motion& share : shares) add(report, share.report);
@@ -115,7 +138,10 @@ Motion ExchangePlan::gather(std::vector<Motion> shares) {
     owners_ = shares.size();
     // A single rank keeps its own order, without a copy of the grains.
     Motion all = owners_ == 1 ? std::move(shares.front()) : merged(shares);
-    if (owners_ == 1) owner_.assign(all.grains.size(), 0);
+    if (owners_ == 1) {
+        owner_.assign(all.grains.size(), 0);
+        put_in_order(all.grains, index_);
+    }
     all.report = report;
     all.contacts = std::move(contacts);
     if (const auto twice = index_.follow(all.grains))

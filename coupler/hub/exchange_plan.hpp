@@ -20,7 +20,8 @@ class ExchangePlan {
 
     /// Merges what the grains ranks sent into one list and remembers which rank owns which grain.
     /// Those of several ranks are in the order of their ids, so that sums over grains do not depend
-    /// on who owns them.
+    /// on who owns them; those of one rank in the order in which it has sent them first, and after
+    /// that in which it sends other grains.
     /// Contacts (checked by hub/checks/contact_check) are in the order of contact_before, whatever
     /// the number of ranks. Throws PhysicsRefused when an id occurs twice.
     Motion gather(std::vector<Motion> shares);

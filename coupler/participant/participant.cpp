@@ -63,6 +63,11 @@ void require_run_folder(const std::string& folder) {
                       "the command line");
 }
 
+ExitCode code_of(const std::exception& error) {
+    const auto* failure = dynamic_cast<const Failure*>(&error);
+    return failure ? failure->code() : ExitCode::participant_failed;
+}
+
 MPI_Comm own_communicator(Role role, std::uintptr_t given) {
     // A host that has split the world already, as YADE's mpy does, gives its own communicator.
     if (given == 0) return split_world(role);
@@ -81,7 +86,8 @@ struct Membership::State {
         PMPI_Comm_rank(local, &rank);
         PMPI_Comm_size(local, &ranks);
         run_folder = launch.run_folder;
-        // Rank and size first: several ranks have a log each.
+        // turbidite-member names it by the place in the job; this one, of rank and size, by the
+        // place in the program's own communicator.
         log = started_log();
         if (log.empty()) log = log_file(run_folder, role, rank, ranks);
         redirect_output(log);
@@ -144,8 +150,7 @@ int Membership::leave(const Outcome& outcome) {
 
 // A normal exit would wait in MPI_Finalize for programs that wait for this one.
 void Membership::abort(const std::exception& error) {
-    const auto* failure = dynamic_cast<const Failure*>(&error);
-    const auto code = static_cast<int>(failure ? failure->code() : ExitCode::participant_failed);
+    const auto code = static_cast<int>(code_of(error));
     std::fprintf(stderr, "turbidite: %s: %s\n", role_name(state_->role), error.what());
     std::fflush(nullptr);
     // Before the abort, after which mpirun reports nothing but a code.
@@ -173,18 +178,15 @@ int play(Role role, Adapter& adapter, const Launch& launch) {
     }
 }
 
-/// Failures before the coupler knows this program end it: turbidite-member tells the others.
+/// What fails before the coupler knows this program ends it, Launch::joined as well:
+/// turbidite-member tells the others.
 template <class Adapter>
 int run(Role role, Adapter& adapter, const Launch& launch) {
     try {
         return play(role, adapter, launch);
-    } catch (const Failure& failure) {
-        std::fprintf(stderr, "turbidite: %s: %s\n", role_name(role), failure.what());
-        return static_cast<int>(failure.code());
     } catch (const std::exception& error) {
-        // Of Launch::joined
         std::fprintf(stderr, "turbidite: %s: %s\n", role_name(role), error.what());
-        return static_cast<int>(ExitCode::participant_failed);
+        return static_cast<int>(code_of(error));
     }
 }
 

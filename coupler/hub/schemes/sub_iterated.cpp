@@ -50,42 +50,27 @@ Six with_impulse(const FreeResponse& response, const GrainState& grain) {
     return free + inertia.llt().solve(six(grain.contact_impulse, grain.contact_angular_impulse));
 }
 
-/// Where the components of each grain stand in the vectors of all rounds of a window: a program may
-/// return its grains in another order every time.
-class Components {
- public:
-    explicit Components(const std::vector<GrainState>& grains) {
-        for (const GrainState& grain : grains)
-            first_.emplace(grain.id, 6 * static_cast<Eigen::Index>(first_.size()));
-    }
-    Eigen::Index count() const { return 6 * static_cast<Eigen::Index>(first_.size()); }
-    Eigen::Index of(const GrainState& grain) const { return first_.at(grain.id); }
-
- private:
-    std::unordered_map<GrainId, Eigen::Index> first_;
-};
-
 /// U' - U^{n+4/5} of all grains; angular velocities times R, so that all are lengths per time.
-Eigen::VectorXd disagreement(const Motion& motion, const Responses& responses,
-                             const Components& components) {
+Eigen::VectorXd disagreement(const Motion& motion, const Responses& responses) {
     std::unordered_map<GrainId, const FreeResponse*> of;
     for (const FreeResponse& response : responses) of[response.id] = &response;
-    Eigen::VectorXd all(components.count());
-    for (const GrainState& grain : motion.grains) {
+    Eigen::VectorXd all(6 * static_cast<Eigen::Index>(motion.grains.size()));
+    for (std::size_t g = 0; g < motion.grains.size(); ++g) {
+        const GrainState& grain = motion.grains[g];
         Six off =
             with_impulse(*of.at(grain.id), grain) - six(grain.velocity, grain.angular_velocity);
         off.tail<3>() *= grain.radius;
-        all.segment<6>(components.of(grain)) = off;
+        all.segment<6>(6 * static_cast<Eigen::Index>(g)) = off;
     }
     return all;
 }
 
 /// The velocities to come to.
-Responses targets(const Motion& motion, const Eigen::VectorXd& change,
-                  const Components& components) {
+Responses targets(const Motion& motion, const Eigen::VectorXd& change) {
     Responses result;
-    for (const GrainState& grain : motion.grains) {
-        const Six by = change.segment<6>(components.of(grain));
+    for (std::size_t g = 0; g < motion.grains.size(); ++g) {
+        const GrainState& grain = motion.grains[g];
+        const Six by = change.segment<6>(6 * static_cast<Eigen::Index>(g));
         FreeResponse target;
         target.id = grain.id;
         for (Eigen::Index k = 0; k < 3; ++k) {
@@ -110,19 +95,18 @@ class SubIterated final : public Scheme {
         WindowResult result;
         result.joint = JointReport{};
         QuasiNewton iteration;
-        const Components components(before.grains);
         // Empty lists in the first round: grains begin with the impulse that they hold already.
         std::vector<Responses> inputs(static_cast<std::size_t>(context.grains.ranks()));
         for (;;) {
             const Responses corrected = play_contact_round(window, before, inputs, context, result);
-            const Eigen::VectorXd off = disagreement(result.motion, corrected, components);
+            const Eigen::VectorXd off = disagreement(result.motion, corrected);
             JointReport& report = *result.joint;
             report.mismatch = largest_of(off);
             report.converged = report.mismatch <= tolerance_;
             if (report.converged || report.rounds >= most_rounds_) break;
             // The next x less the present one, on top of the U^{n+4/5} that the present one has led
             // to.
-            inputs = context.plan.by_owner(targets(result.motion, iteration.step(off), components));
+            inputs = context.plan.by_owner(targets(result.motion, iteration.step(off)));
         }
         send_accept(context);
         finish_window(window, before, context, result);
