@@ -20,6 +20,7 @@ nscd::Engine still_engine(const nscd::Bodies& bodies, const RunValues& run,
     settings.dimension = run.dimension;
     settings.box.length = run.period;
     settings.friction = 0.0;
+    settings.law_settings.recovery_fraction = 0.0;  // nothing to solve: gaps are all that is asked
     for (nscd::Wall& wall : walls) wall.material = -1;
     nscd::Engine engine(settings, shapes, std::move(walls));
     engine.bodies() = bodies;

@@ -32,6 +32,18 @@ struct ContactPoint {
     std::int32_t turns_with = 0;
 };
 
+/// A sphere that just fits into a round wall touches it in further places than the nearest one,
+/// each with features of its own.
+inline constexpr std::int32_t features_of_a_place = 3;
+/// Above the features of any shape: those of images of a wall across periodic sides.
+inline constexpr std::int32_t features_per_image = 1 << 16;
+
+/// Whether it is such a further point.
+inline bool is_further_point(const Wall& wall, const ContactPoint& point) {
+    return wall.form == WallForm::round &&
+           point.feature % features_per_image >= features_of_a_place;
+}
+
 /// Two bodies; `offset` is b - a by the minimum image.
 struct PairView {
     const Bodies& bodies;

@@ -11,9 +11,6 @@
 
 namespace turbidite::nscd {
 
-/// Above the features of any shape.
-inline constexpr std::int32_t features_per_image = 1 << 16;
-
 /// The walls, at the same indices, and behind them the images of those with ends that come within
 /// `reach` [m] of where the centres of the bodies are.
 std::vector<Wall> with_images(const std::vector<Wall>& walls, const Bodies& bodies,

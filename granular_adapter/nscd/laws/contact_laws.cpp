@@ -9,7 +9,6 @@
 #include <string>
 
 #include "coupler/rigid/vec3.hpp"
-#include "granular_adapter/nscd/detection/space/space_walls.hpp"
 
 namespace turbidite::nscd {
 namespace {

@@ -9,12 +9,9 @@
 #include "coupler/rigid/vec3.hpp"
 #include "granular_adapter/nscd/detection/narrow_phase.hpp"
 #include "granular_adapter/nscd/detection/round_contacts.hpp"
-#include "granular_adapter/nscd/detection/wall_images.hpp"
 
 namespace turbidite::nscd {
 namespace {
-
-constexpr std::int32_t features_of_a_place = 3;
 
 /// Any unit vector normal to a unit vector.
 Vec3 normal_to(const Vec3& n) {
@@ -75,15 +72,6 @@ bool may_fit(const WallView& view, const Beside& beside, const NearestPlace& nea
     return foot.radius > 0.0 && near.normal.radius < 0.0 &&
            beside.at.radius + foot.radius - view.bodies.radius[view.body] < view.alert;
 }
-
-}  // namespace
-
-bool is_further_point(const Wall& wall, const ContactPoint& point) {
-    return wall.form == WallForm::round &&
-           point.feature % features_per_image >= features_of_a_place;
-}
-
-namespace {
 
 void sphere_round(const WallView& view, std::vector<ContactPoint>& points) {
     const Beside beside(view.wall, view.bodies.position[view.body]);

@@ -16,10 +16,7 @@ namespace turbidite::nscd {
 void check_space_wall(const Wall& wall);
 
 /// Features: 0 on the surface, 1 and 2 at the rims of a round wall, 1 at the edges of a rectangle;
-/// 3 more for each further point of a sphere that just fits into a round wall.
+/// features_of_a_place more for each further point of a sphere that just fits into a round wall.
 void sphere_wall(const WallView& view, std::vector<ContactPoint>& points);
-
-/// Whether it is such a further point, and not that of the place nearest to the sphere.
-bool is_further_point(const Wall& wall, const ContactPoint& point);
 
 }  // namespace turbidite::nscd
