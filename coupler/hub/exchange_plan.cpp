@@ -101,21 +101,13 @@ std::vector<Source> in_order_of_ids(const std::vector<Motion>& shares) {
 /// and what is told apart by its place, as by fluids within a window, must not be mixed up. Other
 /// grains stay as they are, one that comes twice as well.
 void put_in_order(std::vector<GrainState>& grains, const GrainIndex& before) {
-    if (grains.size() != before.size()) return;
-    std::vector<std::size_t> places;
-    places.reserve(grains.size());
-    bool in_order = true;
-    for (std::size_t at = 0; at < grains.size(); ++at) {
-        places.push_back(before.place(grains[at].id, at));
-        if (places.back() == GrainIndex::nowhere) return;
-        in_order = in_order && places.back() == at;
-    }
-    if (in_order) return;
+    if (grains.size() != before.size() || before.fits(grains)) return;
     std::vector<GrainState> ordered(grains.size());
     std::vector<std::uint8_t> taken(grains.size(), 0);
-    for (std::size_t at = 0; at < grains.size(); ++at) {
-        if (std::exchange(taken[places[at]], 1) != 0) return;
-        ordered[places[at]] = grains[at];
+    for (const GrainState& grain : grains) {
+        const std::size_t place = before.place(grain.id);
+        if (place == GrainIndex::nowhere || std::exchange(taken[place], 1) != 0) return;
+        ordered[place] = grain;
     }
     grains = std::move(ordered);
 }

@@ -38,6 +38,12 @@ class GrainIndex {
     /// How often it was built anew: whenever the ids or their order changed.
     std::int64_t builds() const { return builds_; }
 
+    /// Whether it is of these grains in this order.
+    bool fits(const std::vector<GrainState>& grains) const {
+        return std::equal(ids_.begin(), ids_.end(), grains.begin(), grains.end(),
+                          [](GrainId id, const GrainState& grain) { return id == grain.id; });
+    }
+
     std::size_t size() const { return ids_.size(); }
     GrainId id(std::size_t place) const { return ids_[place]; }
 
@@ -53,11 +59,6 @@ class GrainIndex {
     }
 
  private:
-    bool fits(const std::vector<GrainState>& grains) const {
-        return std::equal(ids_.begin(), ids_.end(), grains.begin(), grains.end(),
-                          [](GrainId id, const GrainState& grain) { return id == grain.id; });
-    }
-
     std::int64_t builds_ = 0;
     std::vector<GrainId> ids_;
     std::unordered_map<GrainId, std::size_t> places_;

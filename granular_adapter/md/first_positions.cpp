@@ -67,17 +67,24 @@ std::vector<std::uint8_t> take_first_positions(nscd::Bodies& bodies, double lead
                                      [](const Twist& twist) { return twist.at_rest(); });
     if (at_rest) return stays;
     const nscd::Bodies at_q = bodies;
-    nscd::PeriodicBox box;
-    box.length = run.period;
-    nscd::move(bodies, bodies.twist, -lead, box);
+    nscd::move(bodies, bodies.twist, -lead, {.length = run.period});
     // Who has been put back may be met by others that have not.
     while (mark_overlaps(bodies, still_engine(bodies, run, shapes, walls), stays))
-        for (std::size_t i = 0; i < stays.size(); ++i) {
-            if (!stays[i]) continue;
-            bodies.position[i] = at_q.position[i];
-            bodies.orientation[i] = at_q.orientation[i];
-        }
+        put_where(stays, at_q, bodies);
     return stays;
+}
+
+void put_where(const std::vector<std::uint8_t>& mask, const nscd::Bodies& from, nscd::Bodies& to) {
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        if (!mask[i]) continue;
+        to.position[i] = from.position[i];
+        to.orientation[i] = from.orientation[i];
+    }
+}
+
+double deepest_overlap(const nscd::Bodies& bodies, const RunValues& run, const ShapeTable& shapes,
+                       const std::vector<nscd::Wall>& walls) {
+    return still_engine(bodies, run, shapes, walls).max_penetration();
 }
 
 }  // namespace turbidite

@@ -24,4 +24,11 @@ std::vector<std::uint8_t> take_first_positions(nscd::Bodies& bodies, double lead
                                                const RunValues& run, const ShapeTable& shapes,
                                                const std::vector<nscd::Wall>& walls);
 
+/// Takes position and orientation of bodies whose entry is not zero from the same bodies elsewhere.
+void put_where(const std::vector<std::uint8_t>& mask, const nscd::Bodies& from, nscd::Bodies& to);
+
+/// [m]
+double deepest_overlap(const nscd::Bodies& bodies, const RunValues& run, const ShapeTable& shapes,
+                       const std::vector<nscd::Wall>& walls);
+
 }  // namespace turbidite

@@ -13,7 +13,6 @@
 #include "granular_adapter/grains/case_bodies.hpp"
 #include "granular_adapter/md/first_positions.hpp"
 #include "granular_adapter/md/rows.hpp"
-#include "granular_adapter/nscd/engine/engine.hpp"
 #include "granular_adapter/nscd/engine/theta_scheme.hpp"
 #include "granular_adapter/nscd/problem/byte_stream.hpp"
 #include "granular_adapter/nscd_adapter/contact_records.hpp"
@@ -57,16 +56,6 @@ void refuse_other_shapes(const ShapeTable& shapes, const std::vector<std::string
             throw std::invalid_argument(
                 "shape \"" + shape.kind +
                 "\" is unknown to this molecular dynamics; allowed: " + listed(known));
-}
-
-double deepest_overlap(const nscd::Bodies& bodies, const RunValues& run, const ShapeTable& shapes,
-                       const std::vector<nscd::Wall>& walls) {
-    nscd::EngineSettings settings;
-    settings.dimension = run.dimension;
-    settings.box.length = run.period;
-    nscd::Engine engine(settings, shapes, walls);
-    engine.bodies() = bodies;
-    return engine.max_penetration();
 }
 
 }  // namespace
@@ -326,11 +315,7 @@ void MdAdapter::follow_migration(nscd::Bodies* sent) {
 nscd::Bodies MdAdapter::at_protocol_positions() const {
     nscd::Bodies sent = bodies_;
     nscd::move(sent, sent.twist, lead(), box_);
-    for (std::size_t i = 0; ahead_ && i < ahead_->size(); ++i)
-        if ((*ahead_)[i]) {
-            sent.position[i] = bodies_.position[i];
-            sent.orientation[i] = bodies_.orientation[i];
-        }
+    if (ahead_) put_where(*ahead_, bodies_, sent);
     return sent;
 }
 

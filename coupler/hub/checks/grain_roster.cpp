@@ -68,6 +68,7 @@ bool GrainRoster::unchanged(const Shares& shares) const {
 /// The same grains in the same order may have changed their ranks: the last of one has become the
 /// first of the next.
 void GrainRoster::note_ranks(const std::vector<Motion>& shares) {
+    if (shares.size() < 2) return;
     std::size_t at = 0;
     for (std::size_t rank = 0; rank < shares.size(); ++rank)
         for (std::size_t n = shares[rank].grains.size(); n > 0; --n)

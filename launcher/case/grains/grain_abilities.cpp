@@ -120,8 +120,7 @@ std::function<double(const PlacedGrain&)> density_of_grains(const Settings& sett
 /// of the moment of inertia is 60 s^2 (1 + 2 s/c)^2/c^2 of twelve: in fcc contact with 8 across 0.3
 /// to 0.4 for s = 0.4, to 0.6 for 0.5, 0.7 to 0.9 for 0.7 and 1.5 to 1.8 for 1.
 double lightest_of_cells(double across, double shift) {
-    const double caps =
-        60.0 * shift * shift * (1.0 + 2.0 * shift / across) * (1.0 + 2.0 * shift / across);
+    const double taken = shift * (1.0 + 2.0 * shift / across), caps = 60.0 * taken * taken;
     return std::max(15.0, 8.4 + caps) / (across * across);
 }
 
