@@ -23,7 +23,6 @@
 #include "launcher/job/folder/run_json.hpp"
 #include "launcher/job/folder/run_on_disk.hpp"
 #include "launcher/job/launch_line.hpp"
-#include "launcher/version.hpp"
 
 namespace turbidite {
 
@@ -151,7 +150,7 @@ nlohmann::ordered_json first_record(const ResolvedCase& resolved, const RunFolde
             {"case_hash", resolved.settings.text("run.hash")},
             {"hash_before_pouring", resolved.hash_before_pouring},
             {"extra_grains", extra_fingerprint(resolved)},
-            {"versions", {{"turbidite", version()}, {"commit", commit()}}},
+            {"versions", own_versions()},
             {"prepared", local_time("%Y-%m-%dT%H:%M:%S%z")},
             {"scales", scales.kind},
             {"D", scales.diameter},

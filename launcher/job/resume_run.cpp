@@ -314,6 +314,7 @@ void write_record(const ResolvedCase& resolved, const RunFolder& folder, std::in
     record["windows"] = resolved.settings.integer("run.windows");
     record["command"] = shell_line(line);
     record["parts"].push_back({{"resumed", local_time("%Y-%m-%dT%H:%M:%S%z")},
+                               {"versions", own_versions()},
                                {"overrides", overrides},
                                {"from_window", windows},
                                {"windows_done", windows},
@@ -446,7 +447,7 @@ std::optional<Resumed> prepare_resumption(const fs::path& given,
     if (fs::exists(folder.recordings())) put_aside(folder.recordings());
     if (!chosen) {
         say("there is no checkpoint yet; the run starts from the beginning");
-        return Resumed{from_the_beginning(resolved, folder, lock, site, overrides), 0, 0.0, "", ""};
+        return Resumed{from_the_beginning(resolved, folder, lock, site, overrides)};
     }
     const auto record_before = read_run_json(folder.record());
     prepare_fluid(resolved, folder, *chosen);

@@ -15,11 +15,11 @@ namespace turbidite {
 
 struct Resumed {
     PreparedRun run;
-    std::int64_t windows = 0;              ///< done before
-    double time = 0.0;                     ///< [t_c]
-    std::string case_before;               ///< text of case.yaml before overrides; empty without
-    nlohmann::ordered_json record_before;  ///< run.json
-    std::filesystem::file_time_type history_written;  ///< when, by the part before
+    std::int64_t windows = 0;      ///< done before
+    double time = 0.0;             ///< [t_c]
+    std::string case_before = {};  ///< text of case.yaml before overrides; empty without
+    nlohmann::ordered_json record_before = {};             ///< run.json
+    std::filesystem::file_time_type history_written = {};  ///< when, by the part before
 };
 
 /// Makes the folder ready; empty if its run is complete. `say` gets a line for a damaged checkpoint

@@ -13,7 +13,6 @@
 #include "launcher/case/files/case_entries.hpp"
 #include "launcher/case/files/run_folder.hpp"
 #include "launcher/job/folder/run_json.hpp"
-#include "launcher/version.hpp"
 
 namespace turbidite {
 namespace {
@@ -73,8 +72,8 @@ std::optional<std::vector<std::string>> given_then(const Record& record) {
 }
 
 bool is_of_this_program(const Record& record) {
-    const auto versions = record.value("versions", Record::object());
-    return versions.value("turbidite", "") == version() && versions.value("commit", "") == commit();
+    const nlohmann::json played_by = record.value("versions", Record::object());
+    return played_by == nlohmann::json(own_versions());  // in any order
 }
 
 bool has(const std::vector<std::string>& keys, const std::string& key) {

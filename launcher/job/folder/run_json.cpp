@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "coupler/protocol/files/whole_file.hpp"
+#include "launcher/version.hpp"
 
 namespace turbidite {
 
@@ -11,6 +12,10 @@ nlohmann::ordered_json read_run_json(const std::filesystem::path& file) {
     std::ifstream input(file);
     nlohmann::ordered_json record = nlohmann::ordered_json::parse(input, nullptr, false);
     return record.is_object() ? record : nlohmann::ordered_json::object();
+}
+
+nlohmann::ordered_json own_versions() {
+    return {{"turbidite", version()}, {"commit", commit()}};
 }
 
 void write_run_json(const std::filesystem::path& file, const nlohmann::ordered_json& record) {

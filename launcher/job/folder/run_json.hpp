@@ -11,6 +11,9 @@ namespace turbidite {
 /// An empty object if there is no readable file.
 nlohmann::ordered_json read_run_json(const std::filesystem::path& file);
 
+/// What the record says of this program: its version and its commit.
+nlohmann::ordered_json own_versions();
+
 /// Replaces the file atomically, and the disk has it; throws Failure (exit code 4) if that fails.
 void write_run_json(const std::filesystem::path& file, const nlohmann::ordered_json& record);
 

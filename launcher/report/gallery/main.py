@@ -125,6 +125,8 @@ def play(gallery, name):
     played = records.load_played(folder) if options.judge else play_now(gallery, name, form, folder)
     if played is None or played.code is None:
         raise entries.Wrong(f'--judge compares what was played before, and no run of the gallery ended in {folder}.')
+    if played.code != 0 and options.judge and is_completed(form, folder):
+        played = records.Played(played.source, 0, None, None)
     if played.code != 0:
         print(f'{name}: it did not end as it should: exit code {played.code}', file=sys.stderr)
         return played.code if played.code > 0 else 128 - played.code  # negative: the signal that killed it
@@ -182,6 +184,11 @@ def require_done(form, folder):
                                 'there once it is.')
 
 
+def is_completed(form, folder):
+    """`turbidite resume` has played what was left by a run of the gallery that was cut off."""
+    return all(run.record.get('status') == 'done' and run.was_resumed() for run in judged(form, folder))
+
+
 def judged(form, folder):
     return [runs_there.run_there(folder / run) for run in sorted({one.run for one in form.expected})]
 
@@ -231,10 +238,10 @@ def begin_study(gallery, folder, source):
 def require_of_its_commit(form, folder, source):
     """Somebody may have played in the folder since the gallery did, or during it."""
     for run in judged(form, folder):
-        _, commit = run.versions()
-        if not commit or not records.same_commit(commit, source.commit):
+        other = [commit for commit in run.commits() if not commit or not records.same_commit(commit, source.commit)]
+        if other:
             raise entries.Wrong(f'--record names the commit that was played, {source.commit}, and {run.folder} is of '
-                                f'{commit or "an unknown one"}. Play it again without --judge.')
+                                f'{other[0] or "an unknown one"}. Play it again without --judge.')
 
 
 def record(gallery, name, played):

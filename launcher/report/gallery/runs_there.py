@@ -22,6 +22,14 @@ class RunThere:
         told = self.record.get('versions') or {}
         return told.get('turbidite', ''), told.get('commit', '')
 
+    def commits(self):
+        """Of all programs that played a part of it; earlier versions of 0.1 did not note which one resumed a run."""
+        resumed = [part['versions'] for part in self.record.get('parts', []) if 'versions' in part]
+        return [self.versions()[1], *(told.get('commit', '') for told in resumed)]
+
+    def was_resumed(self):
+        return len(self.record.get('parts', [])) > 1
+
     def begun_with(self):
         """As `key=value`."""
         return self.record.get('overrides') or []

@@ -273,6 +273,16 @@ class Gallery(Played):
         self.assertEqual(code, 2)
         self.assertIn('out/falling is not done, and cannot be judged: it is prepared', told)
 
+    def test_a_run_that_was_cut_off_is_judged_once_it_has_been_resumed(self):
+        self.write('program', (self.folder / 'program').read_text().replace('sys.exit(0)\n', 'sys.exit(143)\n'))
+        self.assertEqual(self.act('falling')[0], 143)
+        self.assertEqual(self.act('falling', '--judge')[0], 143)
+        record = json.loads((self.folder / 'out/falling/run.json').read_text())
+        self.write('out/falling/run.json', json.dumps({**record, 'parts': [{}, {'versions': record['versions']}]}))
+        code, told = self.act('falling', '--judge')
+        self.assertEqual(code, 0, told)
+        self.assertIn('2 of 2 numbers hold; played in several parts, whose time is not known', told)
+
     def test_a_run_of_other_keys_is_not_judged(self):
         def refused(tree, text):
             code, told = self.act('--quick', '--judge', 'falling', tree=tree)
@@ -450,6 +460,16 @@ class Records(Played):
         self.write('out/falling/run.json', json.dumps({**record, 'versions': {'turbidite': '0.1.0', 'commit': '0123456789'}}))
         code, told = self.act('--judge', '--record', 'falling')
         self.assertEqual(code, 2)
+        self.assertIn('is of 0123456789', told)
+
+    def test_a_run_that_another_commit_resumed_is_not_recorded(self):
+        self.act('falling')
+        record = json.loads((self.folder / 'out/falling/run.json').read_text())
+        for commit, code in ((record['versions']['commit'], 0), ('0123456789', 2)):
+            parts = [{}, {'versions': {'turbidite': '0.1.0', 'commit': commit}}]
+            self.write('out/falling/run.json', json.dumps({**record, 'parts': parts}))
+            found, told = self.act('--judge', '--record', 'falling')
+            self.assertEqual(found, code, told)
         self.assertIn('is of 0123456789', told)
 
     def test_commits_of_elsewhere_are_told(self):
