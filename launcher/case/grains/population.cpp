@@ -460,7 +460,10 @@ const std::vector<OptionalColumns> space_columns = {
 };
 const std::vector<OptionalColumns> common_columns = {
     {",density", [](const PlacedGrain& g, const GrainForms&) { return g.density.has_value(); },
-     [](const PlacedGrain& g, const FileWords&) { return fmt::format(",{}", *g.density); }},
+     // Those without one have grains.density_ratio, as for the reader.
+     [](const PlacedGrain& g, const FileWords&) {
+         return g.density ? fmt::format(",{}", *g.density) : ",";
+     }},
     {",material", [](const PlacedGrain& g, const GrainForms&) { return g.material != 0; },
      [](const PlacedGrain& g, const FileWords& words) {
          return "," + words.materials.at(static_cast<std::size_t>(g.material));

@@ -37,8 +37,7 @@ PopulationFile read_population_csv(const std::filesystem::path& file,
                                    const std::vector<std::string>& materials = {"default"},
                                    const std::vector<std::string>& motions = {});
 
-/// Numbers round-trip exactly. Columns beyond the radius are written only if a grain needs them;
-/// the density for all grains or none.
+/// Numbers round-trip exactly. Columns beyond the radius are written only if a grain needs them.
 std::string population_csv(const Packing& grains, const GrainForms& forms = plain_discs(),
                            const std::vector<std::string>& materials = {"default"});
 

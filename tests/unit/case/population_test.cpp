@@ -84,6 +84,21 @@ TEST(PopulationFile, AnEmptyFieldHasWhatAFileWithoutTheColumnHas) {
     EXPECT_SAYS(read_errors("id,x,y,spin\n0,1,1,\n"), "line 2: spin = ");
 }
 
+// Beside one with a density of its own.
+TEST(PopulationFile, GrainsWithoutADensityAreWrittenWithoutOne) {
+    PlacedGrain heavy, usual;
+    heavy.id = 1, heavy.x = 1.0, heavy.y = 1.0, heavy.density = 6.0;
+    usual.id = 2, usual.x = 3.0, usual.y = 1.0;
+    const ScratchFolder folder;
+    for (const Packing& grains : {Packing{heavy, usual}, Packing{usual, heavy}}) {
+        const PopulationFile again =
+            read_population_csv(folder.write("g.csv", population_csv(grains)));
+        ASSERT_EQ(texts(again.problems), "");
+        for (std::size_t k = 0; k < 2; ++k)
+            EXPECT_EQ(again.grains[k].density, grains[k].density) << k;
+    }
+}
+
 TEST(PopulationFile, ErrorsNameTheLine) {
     const std::string twice = read_errors("id,x,y,x\n0,1,1,1\n");
     EXPECT_SAYS(twice, "column \"x\" occurs more than once");
