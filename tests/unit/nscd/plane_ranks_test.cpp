@@ -121,6 +121,26 @@ TEST(PlaneRanks, HaveTheSameBitsWithFilms) {
     EXPECT_GT(pulling, 20) << "films that part";
 }
 
+// What films carry is found with an operator that asks all ranks, those without a contact too.
+TEST(PlaneRanks, HaveFilmsWhereOthersHaveNoContact) {
+    Scene scene;
+    scene.settings = scenes::exact(0.3, 1e-4);
+    scene.settings.law.film = "lubrication";
+    scene.settings.law_settings.viscosity = 0.003;
+    scene.settings.law_settings.film_cutoff = 0.1;
+    scene.settings.law_settings.film_roughness = 0.001;
+    scene.shapes = scenes::discs;
+    scene.steps = 3;
+    scene.bodies.add(scenes::disc(1, 1.0, 5.0));
+    scene.bodies.add(scenes::disc(3, 8.0, 5.0));
+    scene.bodies.add(scenes::disc(2, 2.05, 5.0));
+    scene.bodies.add(scenes::disc(4, 12.0, 5.0));
+    scene.bodies.twist[0].velocity = {0.1, 0.0, 0.0};
+    const Played two = play(scene, 2);
+    ASSERT_EQ(two.impulses.size(), 1u) << "one rank has none";
+    EXPECT_GT(two.impulses.begin()->second.first.n, 0.0);
+}
+
 /// Triangles that tumble over the floor.
 Scene tumble() {
     Scene scene;
