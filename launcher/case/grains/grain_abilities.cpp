@@ -124,13 +124,89 @@ double lightest_of_cells(double across, double shift) {
     return std::max(15.0, 8.4 + caps) / (across * across);
 }
 
+/// The same of A + T^T G^-1 T of a disc in the plane, 3 x 3. Least rho_r of its places in the mesh,
+/// and of those with some points left out beside others and walls: 0.49, 0.45, 0.33, 0.36, 0.25,
+/// 0.18, 0.13 and 0.08 with 4, 5, 6, 7, 8, 10, 12 and 16 cells across (0.08 to 0.12 up to 10 with
+/// all points).
+double lightest_of_points(double across) {
+    return std::min(0.5, 21.0 / (across * across));
+}
+
+// Cells inside the surface points are all the inertia that a grain of the fluid's density has. Of
+// discs 4 % of the places leave fewer than two of them with 4 cells across, none from 4.4 on.
+constexpr double least_neutral = 4.4;
+
+/// Bodies in the plane as thin as this let liquid through, as walls would (inner_walls.cpp).
+constexpr double least_thickness = 2.0;
+
 /// Of what the rule of grains.density_ratio says nothing else has to be said.
 bool ratio_is_too_small(const Settings& settings) {
     const char* key = "grains.density_ratio";
     return settings.has(key) && settings.real(key) <= least_density(settings);
 }
 
-std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
+/// In the plane, where grains have points on their surfaces.
+std::vector<GrainRule> rules_of_points(const Settings& settings, const GrainForms& forms,
+                                       bool joint) {
+    // Of what the fluid sees, in cells
+    const auto cells = [&settings](const PlacedGrain& g, double length) {
+        return length * seen_radius(settings, g.radius) * settings.real("fluid.cells_per_diameter");
+    };
+    const auto thickness = [=, &forms](const PlacedGrain& g) {
+        return cells(g, least_width(g, forms));
+    };
+    const auto across = [=, &forms](const PlacedGrain& g) {
+        return cells(g, mean_diameter(g, forms));
+    };
+    const auto is_polygon = [&forms](const PlacedGrain& g) {
+        return g.radius > 0.0 && !forms.forms[g.shape].outline.empty();
+    };
+    std::vector<GrainRule> rules;
+    rules.push_back(
+        {[=](const PlacedGrain& g) { return is_polygon(g) && thickness(g) < least_thickness; },
+         [=](const PlacedGrain& g) {
+             return fmt::format("{:.3g} cells thick as the fluid sees it", thickness(g));
+         },
+         fmt::format("A polygon in a fluid is at least {:.0f} cells thick, as walls "
+                     "are: liquid passes through thinner ones.",
+                     least_thickness),
+         "Use more fluid.cells_per_diameter or thicker grains."});
+    if (!joint) return rules;
+    const auto density = density_of_grains(settings);
+    rules.push_back(
+        {[=](const PlacedGrain& g) {
+             return g.radius > 0.0 && !g.prescribed && density(g) < lightest_of_points(across(g));
+         },
+         [=](const PlacedGrain& g) {
+             return fmt::format("density = {}, {:.3g} cells across", density(g), across(g));
+         },
+         "A grain as light as this may tie less fluid to it than its volume displaces, beside "
+         "others and walls most of all, and no positive mass is left: a density of at least "
+         "21/c^2, at most 0.5, with c cells across (0.33 with 8, 0.15 with 12; of polygons c is "
+         "four times the area over the circumference).",
+         "Use more fluid.cells_per_diameter, or a larger density."});
+    const auto is_neutral = [density, &settings](const PlacedGrain& g) {
+        return std::abs(density(g) - displaced_volume(settings, g.radius)) < 1e-9;
+    };
+    if (settings.text("fluid.points") != "interior")
+        rules.push_back({[=](const PlacedGrain& g) {
+                             return g.radius > 0.0 && !g.prescribed && is_neutral(g) &&
+                                    across(g) < least_neutral;
+                         },
+                         [=](const PlacedGrain& g) {
+                             return fmt::format("density = {}, {:.3g} cells across", density(g),
+                                                across(g));
+                         },
+                         fmt::format("A grain of the density of the fluid it displaces is at least "
+                                     "{} cells across (of polygons four times the area over the "
+                                     "circumference): else it may have no inertia.",
+                                     least_neutral),
+                         "Use more fluid.cells_per_diameter, fluid.points: interior, or a density "
+                         "that is a little larger."});
+    return rules;
+}
+
+std::vector<GrainRule> rules_of_fluid(const Settings& settings, const GrainForms& forms) {
     std::vector<GrainRule> rules;
     const double cells = settings.real("fluid.cells_per_diameter");
     const double least = least_cells_across(settings);
@@ -176,6 +252,9 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
     const auto density = density_of_grains(settings);
     const bool joint = find_scheme(settings.text("coupling.scheme")).needs_inertia();
     const double shift = in_space(settings) ? settings.real("fluid.surface_shift") : 0.0;
+    if (!in_space(settings))
+        for (GrainRule& rule : rules_of_points(settings, forms, joint))
+            rules.push_back(std::move(rule));
     if (joint && in_space(settings))
         rules.push_back(
             {[=](const PlacedGrain& g) {
@@ -203,24 +282,39 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings) {
     return rules;
 }
 
+// Sides of a box in which a round grain has the added mass that it has by itself or beside a wall.
+constexpr double wide = 8.0;  // diameters
+constexpr double lightest_alone = 0.35;
+
+bool is_alone(const Settings& settings, const Packing& grains, const GrainForms& forms) {
+    if (grains.size() != 1 || !forms.forms[grains[0].shape].outline.empty()) return false;
+    const auto size = real_list("domain.size", settings.text("domain.size"));
+    return *std::min_element(size.begin(), size.end()) >= wide * 2.0 * grains[0].radius;
+}
+
 /// Where pressure does not know the grains, a projection leaves a body the share 1/(1 + C_a) of its
 /// velocity, C_a the added mass over rho_f V, and step 5 gives it back what (rho_r - 1) stands for:
 /// a factor (rho_r - 1 + 1/(1 + C_a))/rho_r per window, whatever its length. It is below -1 for
-/// rho_r < C_a/(2 (1 + C_a)): 1/4 for a disc by itself, more for grains among others and near walls
+/// rho_r < C_a/(2 (1 + C_a)): 1/4 for a disc by itself, 0.35 for one that touches a wall (C_a =
+/// pi^2/3 - 1), up to 1/2 for grains among others, images of their own, and long ones
 /// (docs/decisions/multipliers.md).
-std::vector<GrainRule> rules_of_splitting(const Settings& settings, std::size_t grains) {
+std::vector<GrainRule> rules_of_splitting(const Settings& settings, const Packing& grains,
+                                          const GrainForms& forms) {
     if (splitting_of(settings).rigid_grains) return {};
-    const double least = grains > 1 ? 0.5 : 0.25;
+    const double least = is_alone(settings, grains, forms) ? lightest_alone : 0.5;
     const auto density = density_of_grains(settings);
     return {{[=](const PlacedGrain& g) {
                  return !g.prescribed && density(g) < least * displaced_volume(settings, g.radius);
              },
              [density](const PlacedGrain& g) { return fmt::format("density = {}", density(g)); },
-             fmt::format("With fluid.splitting: {} the velocity of a grain as light as this grows "
-                         "from window to window, whatever their length: a density of at least {} "
-                         "times that of the fluid it displaces{}.",
-                         settings.text("fluid.splitting"), least,
-                         grains > 1 ? " (0.25 for a single grain)" : ""),
+             fmt::format(
+                 "With fluid.splitting: {} the velocity of a grain as light as this grows "
+                 "from window to window, whatever their length: a density of at least {} "
+                 "times that of the fluid it displaces{}.",
+                 settings.text("fluid.splitting"), least,
+                 least > lightest_alone
+                     ? fmt::format(" ({} for a single round grain in a wide box)", lightest_alone)
+                     : ""),
              "Use fluid.splitting: explicit-multiplier."}};
 }
 
@@ -316,8 +410,8 @@ CaseProblems check_abilities(const StartGrains& start, const Settings& settings,
     add(rules_of_adapter(adapter, settings, forms));
     add(rules_of_contact(settings, forms));
     if (settings.flag("fluid.enabled")) {
-        add(rules_of_fluid(settings));
-        add(rules_of_splitting(settings, start.grains.size()));
+        add(rules_of_fluid(settings, forms));
+        add(rules_of_splitting(settings, start.grains, forms));
     }
     CaseProblems problems;
     for (const GrainRule& rule : rules) {

@@ -94,6 +94,36 @@ PlacedOutline placed_outline(const PlacedGrain& grain, const GrainForms& forms) 
                   grain.radius, grain.angle);
 }
 
+double least_width(const PlacedGrain& grain, const GrainForms& forms) {
+    const auto& outline = forms.forms[static_cast<std::size_t>(grain.shape)].outline;
+    if (outline.empty()) return 2.0 * grain.radius;
+    // One of the lines lies along an edge.
+    double least = 2.0;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const auto [x, y] = outline[k];
+        const auto [next_x, next_y] = outline[(k + 1) % outline.size()];
+        const double along_x = next_x - x, along_y = next_y - y;
+        double across = 0.0;
+        for (const auto& [other_x, other_y] : outline)
+            across = std::max(across, std::abs(along_x * (other_y - y) - along_y * (other_x - x)));
+        least = std::min(least, across / std::hypot(along_x, along_y));
+    }
+    return grain.radius * least;
+}
+
+double mean_diameter(const PlacedGrain& grain, const GrainForms& forms) {
+    const auto& outline = forms.forms[static_cast<std::size_t>(grain.shape)].outline;
+    if (outline.empty()) return 2.0 * grain.radius;
+    double twice_area = 0.0, circumference = 0.0;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const auto [x, y] = outline[k];
+        const auto [next_x, next_y] = outline[(k + 1) % outline.size()];
+        twice_area += x * next_y - y * next_x;
+        circumference += std::hypot(next_x - x, next_y - y);
+    }
+    return grain.radius * 2.0 * twice_area / circumference;
+}
+
 ShapeTable used_shapes(Packing& grains, const GrainForms& forms) {
     std::vector<std::int32_t> place(forms.forms.size(), -1);
     for (const PlacedGrain& grain : grains) place[static_cast<std::size_t>(grain.shape)] = 0;

@@ -46,6 +46,13 @@ std::string outline_fault(const std::vector<double>& vertices);
 /// A grain in position [D].
 PlacedOutline placed_outline(const PlacedGrain& grain, const GrainForms& forms);
 
+/// The least distance between two parallel lines that enclose it [D].
+double least_width(const PlacedGrain& grain, const GrainForms& forms);
+
+/// 4 area/circumference [D]: the diameter of round ones, that of the inscribed circle of triangles
+/// and squares.
+double mean_diameter(const PlacedGrain& grain, const GrainForms& forms);
+
 /// Removes forms that no grain has and renumbers the grains' shapes.
 ShapeTable used_shapes(Packing& grains, const GrainForms& forms);
 

@@ -35,20 +35,63 @@ TEST_F(FluidLimits, LightGrainsInAFluidNeedJoint) {
 
 // Step 1 of the paper's splitting takes more from a light grain than step 5 gives it back.
 TEST_F(FluidLimits, VeryLightGrainsNeedAPressureThatKnowsThem) {
-    const auto said = [this](const char* ratio, const char* grains, const char* splitting) {
-        return refusal("", {std::string("grains.density_ratio=") + ratio,
-                            std::string("grains.count=") + grains,
-                            std::string("fluid.splitting=") + splitting, "coupling.scheme=joint"});
+    const auto said = [this](const char* ratio, const char* grains, const char* splitting,
+                             const char* more = "grains.jitter=0") {
+        return refusal(
+            "", {std::string("grains.density_ratio=") + ratio,
+                 std::string("grains.count=") + grains, std::string("fluid.splitting=") + splitting,
+                 "coupling.scheme=joint", "fluid.cells_per_diameter=16", more});
     };
-    EXPECT_SAYS(said("0.4", "20", "marchuk-yanenko"), "Use fluid.splitting: explicit-multiplier");
+    const char* use_another = "Use fluid.splitting: explicit-multiplier";
+    EXPECT_SAYS(said("0.4", "20", "marchuk-yanenko"), use_another);
     EXPECT_EQ(said("0.5", "20", "marchuk-yanenko"), "");
-    EXPECT_SAYS(said("0.2", "1", "marchuk-yanenko"), "at least 0.25 times");
-    EXPECT_EQ(said("0.3", "1", "marchuk-yanenko"), "");
     EXPECT_EQ(said("0.2", "20", "explicit-multiplier"), "");
+    // By itself a disc has C_a = 1, beside a wall pi^2/3 - 1; a long one more, and so has one that
+    // is between images of itself.
+    EXPECT_SAYS(said("0.34", "1", "marchuk-yanenko"), "at least 0.35 times");
+    EXPECT_EQ(said("0.36", "1", "marchuk-yanenko"), "");
+    EXPECT_SAYS(said("0.36", "1", "marchuk-yanenko", "grains.shape=triangle"), use_another);
+    EXPECT_SAYS(said("0.36", "1", "marchuk-yanenko", "domain.size=[7, 24]"), use_another);
     // What counts is the fluid that it displaces, (R_h/R)^2 of it.
     EXPECT_EQ(refusal("", {"grains.density_ratio=0.4", "fluid.hydrodynamic_radius=0.85",
                            "fluid.splitting=marchuk-yanenko", "coupling.scheme=joint"}),
               "");
+}
+
+// A + T^T G^-1 T of a disc in the plane is positive at all places in the mesh.
+TEST_F(FluidLimits, LightGrainsInThePlaneNeedCells) {
+    const auto said = [this](const char* ratio, const char* cells, const char* shape) {
+        return refusal("", {std::string("grains.density_ratio=") + ratio,
+                            std::string("fluid.cells_per_diameter=") + cells,
+                            std::string("grains.shape=") + shape, "coupling.scheme=joint",
+                            "fluid.splitting=explicit-multiplier"});
+    };
+    EXPECT_SAYS(said("0.32", "8", "disc"), "density = 0.32, 8 cells across");
+    EXPECT_EQ(said("0.34", "8", "disc"), "");
+    EXPECT_EQ(said("0.16", "12", "disc"), "");
+    EXPECT_EQ(said("0.5", "4", "disc"), "");
+    // Of the triangle of 0.75 D: an inscribed circle of 0.75 D
+    EXPECT_SAYS(said("0.16", "12", "triangle"), "9 cells across");
+    EXPECT_EQ(said("0.27", "12", "triangle"), "");
+}
+
+TEST_F(FluidLimits, PolygonsAreThickerThanTheirSurfaces) {
+    const auto said = [this](const char* vertices, const char* ratio, const char* points) {
+        return refusal(
+            "", {std::string("grains.vertices=") + vertices, "grains.shape=polygon",
+                 std::string("grains.density_ratio=") + ratio, "coupling.scheme=joint",
+                 std::string("fluid.points=") + points, "fluid.cells_per_diameter=8",
+                 "grains.radius=1", "grains.count=3", "fluid.splitting=explicit-multiplier"});
+    };
+    const char* plate = "[0, 0, 2, 0, 2, 0.2, 0, 0.2]";  // 1.6 cells
+    const char* thick = "[0, 0, 2, 0, 2, 0.3, 0, 0.3]";  // 2.4 cells, 4.15 across
+    EXPECT_SAYS(said(plate, "1.5", "interior"), "cells thick as the fluid sees it");
+    EXPECT_EQ(said(thick, "1.5", "interior+boundary"), "");
+    // One of the fluid's density has the inertia of its inner cells alone.
+    EXPECT_SAYS(said(thick, "1", "interior+boundary"), "at least 4.4 cells across");
+    EXPECT_EQ(said(thick, "1", "interior"), "");
+    EXPECT_EQ(said(thick, "1.01", "interior+boundary"), "");
+    EXPECT_EQ(said("[0, 0, 2, 0, 2, 0.4, 0, 0.4]", "1", "interior+boundary"), "");
 }
 
 /// What a text says between two of its parts.
