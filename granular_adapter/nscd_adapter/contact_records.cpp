@@ -49,7 +49,8 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
     record.point = bodies.position[point.b] + point.arm_b;
     record.normal = point.normal;
     // Both arms end at the same point: x_b - x_a = arm_a - arm_b, of the nearest image.
-    record.branch = (point.wall >= 0 ? Vec3{} : point.arm_a) - point.arm_b;
+    // At a wall from its surface, which a film or an attraction holds a gap away from arm_b.
+    record.branch = (point.wall >= 0 ? point.gap * point.normal : point.arm_a) - point.arm_b;
     record.impulse = world_impulse(contact, impulse);
     record.rolling_impulse = world_moment(engine.impulses(), k);
     return record;

@@ -90,9 +90,17 @@ std::vector<SolidGrain> within_period(std::vector<SolidGrain> grains, const Vec3
     return grains;
 }
 
+/// The widest circumradius of triangles that belong to the packing, of grains with this mean area:
+/// their diameter, and at least D.
+double widest(double area, double diameter) {
+    return slack * std::max(diameter, 2.0 * std::sqrt(area / std::numbers::pi));
+}
+
 std::vector<Site> all_sites(const std::vector<SolidGrain>& grains, double diameter,
                             const Vec3& period) {
-    const double margin = 2.0 * slack * diameter;  // the widest circle included
+    double largest = 0.0;
+    for (const SolidGrain& grain : grains) largest = std::max(largest, grain.area);
+    const double margin = 2.0 * widest(largest, diameter);
     const Grid grid(grains, margin, period);
     std::vector<Site> sites;
     for (const SolidGrain& grain : grains) sites.push_back({grain, grid.place(grain), true});
@@ -119,9 +127,10 @@ double pore(const Corners& corner, double diameter) {
     const auto& [a, b, c] = corner;
     const double area =
         0.5 * std::abs((b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x));
-    // Circumradius abc/(4 area) <= D.
+    // Circumradius abc/(4 area)
     const double sides = distance(*a, *b) * distance(*b, *c) * distance(*c, *a);
-    if (!(sides <= 4.0 * area * diameter * slack) || area == 0.0) return 0.0;
+    const double limit = widest((a->area + b->area + c->area) / 3.0, diameter);
+    if (!(sides <= 4.0 * area * limit) || area == 0.0) return 0.0;
     double solid = 0.0;
     for (int k = 0; k < 3; ++k)
         // V_i angle_i, over 2 pi below

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 //
 // The pores of a packing: Delaunay triangles of the grains' centres with a circumradius of at most
-// D, minus the solid inside. Wider triangles are open space: a free surface, the gap between
-// falling grains.
+// D, or 2 sqrt(V/pi) with the mean area V of their grains if that is larger, minus the solid
+// inside. Wider triangles are open space: a free surface, the gap between falling grains.
 //
 //     pores = sum over triangles ( area - sum over vertices V_i angle_i / (2 pi) )
 //

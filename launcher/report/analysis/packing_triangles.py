@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The packing as Delaunay triangles of the grains' centres, as for `pore_volume` of history.csv: only triangles with a
-circumradius of at most D belong to it.
+circumradius of at most D, or of the mean diameter of their grains if that is larger, belong to it.
 
 In each triangle the velocity of the grains is taken as linear, so that its gradient is constant: deformation is
 measured without any choice of a length, and added up afterwards over the cells of a coarse grid.
@@ -48,10 +48,16 @@ def triangles(snapshot, limit=LARGEST_CIRCUMRADIUS):
     lengths = np.hypot(sides[..., 0], sides[..., 1])
     areas = 0.5 * np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
     with np.errstate(divide='ignore'):
-        kept = lengths.prod(axis=1) / (4.0 * areas) <= limit * (1.0 + 1e-9)
+        kept = lengths.prod(axis=1) / (4.0 * areas) <= widest(snapshot.areas[corners], limit) * (1.0 + 1e-9)
     corners, places, sides, areas = corners[kept], places[kept], sides[kept], areas[kept]
     solid = (angles(sides) / (2.0 * np.pi) * snapshot.areas[corners]).sum(axis=1)
     return Triangles(corners, places.mean(axis=1), areas, solid, gradients(places, snapshot.velocities[corners]))
+
+
+def widest(areas, limit):
+    """Circumradius up to which a triangle belongs to the packing [D]; areas (n, 3) of its grains. `limit`: over D, or over
+    their mean diameter if that is larger."""
+    return limit * np.maximum(1.0, 2.0 * np.sqrt(areas.mean(axis=1) / np.pi))
 
 
 def angles(sides):

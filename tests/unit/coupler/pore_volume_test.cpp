@@ -133,6 +133,21 @@ TEST(PoreVolume, RespectsCyclicSides) {
     EXPECT_NEAR(pores(grains, {6, 6, 0}), 36.0 - 36 * pi * 0.09, 1e-11);
 }
 
+// Of grains larger than D their own diameter is the limit.
+TEST(PoreVolume, OfLargeGrainsGrowsWithThem) {
+    for (const double size : {1.8, 3.0}) {
+        std::vector<SolidGrain> grains;
+        for (const SolidGrain& grain : rows(6, 6, 1.0, 1.0, 0.0))
+            grains.push_back(disc(size * grain.x, size * grain.y, 0.5 * size));
+        EXPECT_NEAR(pores(grains), size * size * 25 * (1.0 - pi / 4.0), 1e-11);
+        EXPECT_NEAR(pores(grains, {6 * size, 6 * size, 0}), size * size * 36 * (1.0 - pi / 4.0),
+                    1e-11);
+    }
+    // A large one among small ones
+    EXPECT_NEAR(pores({disc(0, 0, 1.2), disc(1.7, 0), disc(0.85, 1.5)}),
+                by_definition({disc(0, 0, 1.2), disc(1.7, 0), disc(0.85, 1.5)}), 1e-12);
+}
+
 // Two heaps far apart: the space between them does not count as pores.
 TEST(PoreVolume, LeavesOutOpenSpace) {
     auto grains = rows(3, 3, 1.0, 1.0, 0.0);

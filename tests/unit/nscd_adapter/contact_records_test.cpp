@@ -46,6 +46,23 @@ TEST(ContactRecords, IdentifyBodiesAndForce) {
     EXPECT_EQ(base.point, (Vec3{0, 0, 0}));
 }
 
+// Of a film, whose grain is a gap away from the wall.
+TEST(ContactRecords, BeginAtTheWall) {
+    nscd::EngineSettings settings = exact(0.0);
+    settings.law.film = "lubrication";
+    settings.law_settings.viscosity = 0.003;
+    settings.law_settings.film_cutoff = 0.3;
+    settings.law_settings.film_roughness = 0.001;
+    Engine engine(settings, discs, {floor(0.0)});
+    engine.bodies().add(disc(4, 2.0, 0.62));
+    engine.step(dt);
+    const auto contacts = contact_records(engine);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_NE(contacts[0].impulse[1], 0.0);
+    EXPECT_NEAR(contacts[0].gap, 0.12, 1e-12);
+    EXPECT_NEAR(contacts[0].branch[1], 0.62, 1e-12);
+}
+
 // The sum over a body's contacts is the impulse that the engine reports for it.
 TEST(ContactRecords, AddUpToTheBodysImpulse) {
     const Engine engine = tower(0.3);
