@@ -71,7 +71,7 @@ double ConvexPolygon::beyond(std::size_t side, const Eigen::Vector3d& point, dou
 bool ConvexPolygon::contains(const Eigen::Vector3d& point, double radius) const {
     for (std::size_t i = 0; i < vertices_.size(); ++i)
         // Convex: inside of all sides is inside.
-        if (beyond(i, point, radius) > 0.0) return false;
+        if (beyond(i, point, radius) > on_the_edge * radius) return false;
     return true;
 }
 

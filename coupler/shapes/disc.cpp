@@ -22,7 +22,7 @@ Eigen::Matrix3d Disc::inertia_per_density(double radius) const {
 }
 
 bool Disc::contains(const Eigen::Vector3d& point, double radius) const {
-    return point.head<2>().squaredNorm() <= radius * radius;
+    return point.head<2>().squaredNorm() <= radius * radius * (1.0 + 2.0 * on_the_edge);
 }
 
 std::vector<SurfacePoint> Disc::surface_points(double radius, double spacing) const {

@@ -24,6 +24,10 @@ struct SurfacePoint {
     Eigen::Vector3d normal;
 };
 
+/// By which lengths over R may differ and still be R: the centre of a cell at a distance of exactly
+/// R is inside in all units, whatever rounding makes of it.
+constexpr double on_the_edge = 1e-9;
+
 class Shape {
  public:
     virtual ~Shape() = default;

@@ -79,6 +79,11 @@ IterationLimit CoupledStep::one_viscous_correction(int most) const {
     return {most, 0.0, std::min(0.1, 0.5 / shortest_waves())};
 }
 
+bool CoupledStep::begins_without_pressure() const {
+    const double* p = step_.pressure();
+    return std::all_of(p, p + step_.cells(), [](double value) { return value == 0.0; });
+}
+
 CoupledReport CoupledStep::correct(RigidGrains& grains, const CoupledLimits& given) {
     CoupledLimits limits = given;
     if (!limits.iterated) {

@@ -64,6 +64,9 @@ class CoupledStep {
     /// the velocity has had.
     void place_grains(Constraint& constraint, const std::array<double, 3>& a = {});
 
+    /// Whether p is zero in all cells of this rank.
+    bool begins_without_pressure() const;
+
     CoupledReport correct(RigidGrains& grains, const CoupledLimits& limits);
 
     /// s of the window with its last f and p, if kept [m/s]: once, since it is given away.

@@ -205,20 +205,26 @@ void FluidWindow::carry_along() {
 }
 
 /// The pressure that sets the fluid around in motion is an impulse over dt, and not that of the
-/// next window. Where it is found to a tolerance the next window finds its own.
+/// next window, which finds its own.
 void FluidWindow::forget_jump() {
     if (coupled_limits_.iterated) return;
     step_.forget_pressure();
     fields_follow_ = false;
 }
 
+bool FluidWindow::begins_without_pressure(const CoupledStep& coupled) const {
+    double has_one = coupled.begins_without_pressure() ? 0.0 : 1.0;
+    store_.ranks().max(&has_one, 1);
+    return ledger_.began_at_rest() || has_one == 0.0;
+}
+
 /// Pressure and viscosity of the fluid with these grains, where the splitting corrects them.
 void FluidWindow::correct_fluid(CoupledLimits limits) {
     CoupledStep* coupled = step_.coupled();
     if (!coupled) return;
-    // Without a pressure to begin with, one iteration would leave too much of it. What is below the
-    // tolerance is rounding.
-    if (ledger_.began_at_rest() && !limits.iterated)
+    // Without a pressure to begin with, at the start of a run and after a jump, one iteration would
+    // leave too much of it. What is below the tolerance is rounding.
+    if (!limits.iterated && begins_without_pressure(*coupled))
         limits.pressure = {limits.viscosity.most, 1e-9 * run_.velocity / run_.diameter, 1e-3};
     watch_.play("step 5 (pressure and viscosity)", timings_.correction, [&] {
         // Pressure and viscosity change an imposed velocity by rigid changes, and the multipliers

@@ -75,6 +75,7 @@ class FluidWindow {
     void begin_in_motion();
     void carry_along();
     void forget_jump();
+    bool begins_without_pressure(const CoupledStep& coupled) const;
     void note(const MultiplierResult& result);
     void note(const CoupledReport& result);
     void correct_fluid(CoupledLimits limits);

@@ -2,6 +2,7 @@
 #include "fluid_adapter/multiplier/plane/collocation_points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -445,7 +446,7 @@ void PointPlacement::collect(const FluidField& field, const ImmersedGrain& grain
         for (int m = 0; m < along[0].nodes; ++m) {
             const double weight = along[0].weight[m] * along[1].weight[n];
             // A point on a line of centres leaves the cells beside it to the interior (rule 6).
-            if (weight == 0.0) continue;
+            if (std::abs(weight) < on_the_edge) continue;  // 0 but for rounding, in any units
             const int column = grid.wrapped(0, along[0].layer[m]);
             const int cell = cells.at(column, row);
             if (cell < 0) continue;  // beyond the halo: of another rank's point

@@ -184,6 +184,23 @@ TEST_P(EverySplitting, TheJumpOfAnInflowIsNoRateOfChange) {
     EXPECT_NE(after_three(GetParam(), 1, flowing), velocity);
 }
 
+/// The pressure of the jump is gone with its window, and the next one finds its own: all of it,
+/// where a single iteration would do with a pressure to begin with.
+TEST(FluidWindow, PressureAfterAJumpIsFoundAnew) {
+    std::array<std::array<double, 4>, 2> drag;
+    for (const int splitting : {0, 1}) {
+        Scene scene(splitting == 0 ? "explicit-multiplier" : "implicit-multiplier");
+        scene.disc.prescribed = true;
+        for (int index = 0; index < 4; ++index) {
+            const Kick kick = scene.play(index).kicks.at(0);
+            drag[splitting][index] = kick.multiplier_impulse[1] / step;
+            scene.disc.position[1] += step * scene.disc.velocity[1];
+        }
+    }
+    for (int index = 1; index < 4; ++index)
+        EXPECT_NEAR(drag[0][index] / drag[1][index], 1.0, 0.05) << index;
+}
+
 /// Walls that slide along themselves, and sides whose motion has not begun, push no fluid.
 TEST_P(EverySplitting, SidesThatLetNothingInAreNoJump) {
     MovedSides sides;
