@@ -128,7 +128,17 @@ CaseEntries entries_of_override(const std::string& text) {
                                              "Write for example --set contact.friction=0.5."));
         return result;
     }
-    read_document(text.substr(0, equals) + ": " + text.substr(equals + 1), place, result);
+    const std::string value = text.substr(equals + 1);
+    const auto first = value.find_first_not_of(" \t");
+    if (first == std::string::npos || value[first] == '#') {
+        // An empty variable of a script would take the key out.
+        const std::string key = text.substr(0, equals);
+        result.problems.push_back(problem_at("--set", 0, key + " has no value",
+                                             "An override is key=value.",
+                                             "To take a key out of the case write " + key + "=~"));
+        return result;
+    }
+    read_document(text.substr(0, equals) + ": " + value, place, result);
     report_repeated(result);
     return result;
 }
