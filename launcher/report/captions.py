@@ -81,7 +81,7 @@ def settling(run):
         text.append(f'Fastest mean fall: {max(0.0, -velocity[fall]):.4g} u_c at t = {time[fall]:.4g} t_c.')
     _, position = run.column('mean_position_y')
     end = run.end('mean_position_y')
-    if end is not None:
+    if end is not None and not run.has_cyclic_floor():  # else positions start again at the top
         text.append(f'Mean position from {position[0]:.4g} D to {end:.4g} D.')
     return ' '.join(text + [rest(run)])
 

@@ -49,7 +49,7 @@ def until(times, end):
 def half_fall(run):
     """When the mean height has gone half-way from its first to its last value [t_c]; None unless it falls."""
     time, height = run.column('mean_position_y')
-    if len(height) < 2 or height[-1] >= height[0]:
+    if len(height) < 2 or height[-1] >= height[0] or run.has_cyclic_floor():
         return None
     half = 0.5 * (height[0] + height[-1])
     after = int(np.argmax(height <= half))

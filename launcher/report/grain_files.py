@@ -20,6 +20,7 @@ class Grains:
     velocities: np.ndarray = None  # (n, 2)
     outlines: dict = None          # index of a polygon: its corners (k, 2)
     forces: np.ndarray = None      # (n, 2) of the fluid, buoyancy apart
+    contact_forces: np.ndarray = None  # (n, 2) mean of the window
     densities: np.ndarray = None   # (n,)
     prescribed: np.ndarray = None  # (n,) bool
     z: np.ndarray = None           # (n,) of the centres; 0 in the plane
@@ -130,6 +131,8 @@ def grains_of(time, path, arrays):
     grains.prescribed = arrays['prescribed'] > 0 if 'prescribed' in arrays else None
     if 'force' in arrays:
         grains.forces = in_plane(arrays['force'])
+    if 'contact_force' in arrays:
+        grains.contact_forces = in_plane(arrays['contact_force'])
     corners = path.with_name(path.name.replace('grains_', 'outlines_', 1))
     if corners != path and corners.exists():
         grains.outlines = read_outlines(corners, grains.ids)

@@ -46,7 +46,8 @@ def instants(run):
 
 def all_instants(run):
     """(time, grains file or None, field folder or None) of every output with grains; with a fluid in the plane, whose
-    velocity is in the picture, of every output of its fields."""
+    velocity is in the picture, of those outputs of its fields that have grains: a run that was resumed, or ends later now,
+    has fields out of turn."""
     grains, fields = grain_files.grain_series(run), fluid_fields.field_times(run)
     of_fields = run.is_wet() and not run.in_space() and len(fields) > 1
     leading = fields if of_fields else grains or fields
@@ -54,7 +55,8 @@ def all_instants(run):
         return []
     times = [time for time, _ in leading]
     tolerance = SAME_TIME * _interval(times)
-    return [(time, _at(time, grains, tolerance), _at(time, fields, tolerance)) for time in times]
+    found = [(time, _at(time, grains, tolerance), _at(time, fields, tolerance)) for time in times]
+    return [instant for instant in found if instant[1] is not None or not grains]
 
 
 def _chosen(times, rest, time_scale):

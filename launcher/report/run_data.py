@@ -21,6 +21,7 @@ GRAINS = 'grains'  # in RunData.fingerprints
 EXTRA = 'grains.extra_file'
 BARE_FROM = 0.9  # of the width: grains that reach so far at first fill the box
 SAME_FRONT = 0.01  # D
+AT_SIDE = 0.02     # D
 FEWEST_IN_COLUMN = 2  # free grains: one that falls by itself is none
 CONTINUED = ('time.end', 'output.', 'limits.', 'fluid.ranks', 'grains.ranks')  # keys that change no window
 
@@ -75,9 +76,9 @@ class RunData:
         return [float(v) for v in self.case['domain.size'].strip('[]').split(',')]
 
     def front_arrives(self):
-        """Time at which the front is within a radius of the right side [t_c]; None if it never is."""
+        """Time at which the front, the edge of the foremost grain, is at the right side [t_c]; None if it never is."""
         time, front = self.column('front_x')
-        arrived = [t for t, x in zip(time, front) if x >= self.size()[0] - 0.5]
+        arrived = [t for t, x in zip(time, front) if x >= self.size()[0] - AT_SIDE]
         return arrived[0] if arrived else None
 
     def front_is_free(self):

@@ -23,6 +23,8 @@ from analysis.once import UNREADABLE, once_per_run
 from analysis.weight_balance import submerged_share, weights_of
 
 MOST_FIELDS = 11
+ROUNDING = 1e-9  # of files in ASCII
+SAME_ROW = 1e-6  # of the time
 
 
 @dataclass
@@ -35,12 +37,17 @@ class Budget:
     contacts: np.ndarray   # work on the grains, negative: dissipated
     fluid: np.ndarray
     splitting: np.ndarray  # the known term of the time integration
+    known: np.ndarray      # bool: rows at which it is known
 
     def defect(self):
-        """What remains unexplained, over the largest of the terms."""
+        """What remains unexplained, over the largest of the terms, at the known rows."""
         largest = max(np.abs(part).max() for part in (self.kinetic, self.potential, self.contacts, self.fluid))
-        left = self.kinetic + self.potential - self.contacts - self.fluid - self.splitting
+        left = (self.kinetic + self.potential - self.contacts - self.fluid - self.splitting)[self.known]
         return left / largest if largest > 0.0 else left
+
+    def spent(self):
+        """Potential energy lost until the end, and kinetic energy if the grains end slower than they began."""
+        return -self.potential[-1] - min(0.0, self.kinetic[-1])
 
 
 @once_per_run
@@ -60,9 +67,10 @@ def budget(run):
     change = lambda name: changes(run.history[name][:rows])
     step = float(run.case.get('time.step', 0.0)) * run.scale('t_c')
     gravity = float(run.record.get('g') or 1.0) / run.scale('u_c')
+    fall, known = weighted_fall(run)
     return Budget(run.history['time'][:rows], change('kinetic_energy'), change('potential_energy'),
                   work('contact_work'), work('fluid_work') if run.is_wet() else np.zeros(rows),
-                  0.5 * step * gravity * changes(weighted_fall(run)[:rows]))
+                  0.5 * step * gravity * changes(fall[:rows]), known[:rows])
 
 
 def drives_grains(run):
@@ -74,14 +82,19 @@ def changes(values):
 
 
 def weighted_fall(run):
-    """sum of (M - m_f) U_y over the sum of M at the rows [u_c]. The history has the number mean of U_y, which is all that
-    equal grains need; how much that of unequal ones differs is known at the snapshots and taken linearly in between."""
+    """sum of (M - m_f) U_y over the sum of M at the rows [u_c], and at which of them it is known. The history has the
+    number mean of U_y, which is all that equal grains need; how much that of unequal ones differs is known at the snapshots
+    and taken linearly in between."""
+    time = run.history['time']
     mean = submerged_share(run) * run.history['mean_velocity_y']
     there = [one for one in snapshots.snapshots(run) if len(one.ids)]
     if not there:
-        return mean
-    apart = [fall_of(run, one) - submerged_share(run) * one.velocities[:, 1].mean() for one in there]
-    return mean + np.interp(run.history['time'], [one.time for one in there], apart)
+        return mean, np.ones(len(time), bool)
+    apart = np.array([fall_of(run, one) - submerged_share(run) * one.velocities[:, 1].mean() for one in there])
+    times = np.array([one.time for one in there])
+    are_equal = np.ptp(apart) <= ROUNDING * max(1e-300, np.abs(mean).max())
+    nearest = np.abs(time[:, None] - times).min(axis=1)
+    return mean + np.interp(time, times, apart), are_equal | (nearest <= SAME_ROW * max(1.0, abs(time[-1])))
 
 
 def fall_of(run, snapshot):
@@ -97,12 +110,12 @@ def largest_defect(run):
 
 
 def dissipated_share(run, part):
-    """Of the potential energy lost until the end, the share that went to contacts or to the fluid; None if the grains
-    have not sunk."""
+    """Of the energy that the grains have spent until the end, the share that went to contacts or to the fluid; None if they
+    have spent none."""
     found = budget(run)
-    if found is None or found.potential[-1] >= 0.0:
+    if found is None or found.spent() <= 0.0:
         return None
-    return float(getattr(found, part)[-1] / found.potential[-1])
+    return float(0.0 - getattr(found, part)[-1] / found.spent())
 
 
 @once_per_run
@@ -141,11 +154,14 @@ def in_grains(run, grains):
 
 
 def caption(run, found):
-    share = lambda part: -100.0 * getattr(found, part)[-1] / lost
-    lost = -found.potential[-1]
-    text = f'Until t = {found.time[-1]:.4g} t_c the grains lose {lost:.4g} m u_c² of potential energy each (mean)'
-    if lost > 0.0:
-        text += (f': {-share("kinetic"):.3g} % is their motion, {share("contacts"):.3g} % went to contacts'
-                 + (f', {share("fluid"):.3g} % to the liquid' if run.is_wet() else ''))
+    share = lambda part: 0.0 - 100.0 * getattr(found, part)[-1] / found.spent()
+    text = (f'Until t = {found.time[-1]:.4g} t_c the grains lose {-found.potential[-1]:.4g} m u_c² of potential energy each '
+            '(mean)')
+    if found.kinetic[-1] < 0.0:
+        text += f', and {-found.kinetic[-1]:.4g} m u_c² of kinetic energy'
+    if found.spent() > 0.0:
+        parts = [f'{-share("kinetic"):.3g} % is their motion'] if found.kinetic[-1] >= 0.0 else []
+        parts.append(f'{share("contacts"):.3g} % went to contacts')
+        text += ': ' + ', '.join(parts + ([f'{share("fluid"):.3g} % to the liquid'] if run.is_wet() else []))
     return (text + f'. The budget closes to {np.abs(found.defect()).max():.1e} of its largest term, the part of the '
             f'time integration (at most {np.abs(found.splitting).max():.1e} m u_c²) included.')

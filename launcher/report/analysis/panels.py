@@ -139,9 +139,9 @@ def pressure_map(run, time, values, limit):
     image = axes.imshow(values, origin='lower', extent=(0, width, 0, height), cmap='RdBu_r', vmin=-limit, vmax=limit,
                         interpolation='nearest')
     figure.colorbar(image, ax=axes, extend='both')
-    nearest = min(snapshots.snapshots(run), key=lambda one: abs(one.time - time), default=None)
-    if nearest is not None:
-        axes.plot(*nearest.centres.T, linestyle='', marker='.', markersize=0.8, color='black', alpha=0.4)
+    grains = grain_files.grains_at(run, time * run.scale('t_c'))
+    if grains is not None:
+        axes.plot(*grains.centres.T / run.scale('D'), linestyle='', marker='.', markersize=0.8, color='black', alpha=0.4)
     return figure
 
 
@@ -168,6 +168,8 @@ def add_weight(page, run):
     page.heading('Effective stress and weight')
     page.panels([(figure, 'weight'), (other, 'weight_profile')],
                 'Vertical forces on the grains over their (submerged) weight; right: on the grains above a level.'
+                + (' Contacts are springs: single ones are those of the last sub-step, and only what accelerates the grains '
+                   'is of the mean over the window.' if run.has_springs() else '')
                 + ('' if defect is None else f' At rest at the end: balanced to {defect:.1e}.'))
 
 
@@ -185,7 +187,7 @@ def add_energy(page, run):
         axes.plot(*liquid, label='motion of the liquid', linewidth=1.0, marker='.', color='#888888')
     axes.legend(fontsize=8)
     other, beside = panel('Defect of the budget', TIME_LABEL, 'over the largest term')
-    beside.plot(found.time, np.abs(found.defect()), linewidth=1.3)
+    beside.plot(found.time[found.known], np.abs(found.defect()), linewidth=1.3)
     curves.logarithmic(beside)
     page.heading('Energy')
     page.panels([(figure, 'energy'), (other, 'energy_defect')], energy.caption(run, found))

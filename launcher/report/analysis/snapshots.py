@@ -44,6 +44,7 @@ class Snapshot:
     prescribed: np.ndarray = None  # (n,) bool; None: no grain is
     velocity_z: np.ndarray = None  # (n,) [u_c]; None: of no grain
     spins: np.ndarray = None       # (n, 3) [1/t_c]; None: of no grain
+    contact_force: np.ndarray = None  # (n, 2) mean of the window [rho_s g D^2]; None where the adapter tells none
 
     def free(self):
         """(n,) bool: grains whose motion is not prescribed."""
@@ -91,7 +92,8 @@ def read_snapshot(run, time, grain_file, contact_file):
                     read_contacts(run, contact_file, solid.unit_force(run, grains)) if contact_file else None,
                     submerged_weights(run, grains), solid.mean_density(run, grains), grains.prescribed,
                     None if grains.velocity_z is None else grains.velocity_z / run.scale('u_c'),
-                    None if grains.spins is None else grains.spins * run.scale('t_c'))
+                    None if grains.spins is None else grains.spins * run.scale('t_c'),
+                    None if grains.contact_forces is None else grains.contact_forces / solid.unit_force(run, grains))
 
 
 def submerged_weights(run, grains):

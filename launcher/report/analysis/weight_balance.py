@@ -103,9 +103,10 @@ class Carriers:
     inner: np.ndarray       # walls inside the box
     prescribed: np.ndarray  # grains with a prescribed motion
     fluid: np.ndarray
+    all_contacts: np.ndarray  # the mean over the window: with springs the others are those of the last sub-step
 
     def contacts(self):
-        return self.floor + self.sides + self.inner + self.prescribed
+        return self.all_contacts
 
     def rest(self):
         """What is carried by nothing: it accelerates the grains downwards."""
@@ -120,8 +121,10 @@ def carriers(run):
         _, weights, lift = on_free(run, one)
         if one.contacts is None or not weights.sum() > 0.0:
             continue
-        forces = np.array([*supports(one.contacts, one.prescribed_ids(), 6 if run.in_space() else 4), lift.sum()])
-        rows.append((one.time, *forces / weights.sum()))
+        parts = supports(one.contacts, one.prescribed_ids(), 6 if run.in_space() else 4)
+        # Those among free grains cancel.
+        everything = sum(parts) if one.contact_force is None else one.contact_force[one.free(), 1].sum()
+        rows.append((one.time, *np.array([*parts, lift.sum(), everything]) / weights.sum()))
     return Carriers(*np.array(rows).T) if rows else None
 
 

@@ -460,7 +460,8 @@ def largest_defect(runs, measure, most):
 
 
 def energy_closes(runs):
-    return largest_defect(runs, energy.largest_defect, ENERGY)
+    # Grains between springs do not move with the velocity of a window's end, and the term of the time integration is another.
+    return largest_defect(runs, lambda run: None if run.has_springs() else energy.largest_defect(run), ENERGY)
 
 
 def momentum_closes(runs):

@@ -622,6 +622,17 @@ class Weights(unittest.TestCase):
         self.assertAlmostEqual(float(found.sides[0]), 1 / 3)
         self.assertAlmostEqual(float(found.rest()[0]), 0.0)
 
+    def test_all_contacts_are_those_of_the_window(self):
+        # Springs: single contacts are of the last sub-step, three times the mean force of the window.
+        weight = DISC / 3.0
+        contacts = snapshots.Contacts(np.array([-3]), np.array([0]), np.array([[[1, 0], [1, 0.5]]]), np.array([[0, 3 * weight]]))
+        one = snapshot([[1, 0.5]], contacts=contacts)
+        one.contact_force = np.array([[0.0, weight]])
+        found = weight_balance.carriers(with_snapshots(run(), one))
+        self.assertAlmostEqual(float(found.floor[0]), 3.0)
+        self.assertAlmostEqual(float(found.contacts()[0]), 1.0)
+        self.assertAlmostEqual(float(found.rest()[0]), 0.0)
+
     def test_walls_inside_the_box_are_no_side_walls(self):
         weight = DISC / 3.0
         for dimension, walls in (('2', (-5, -1)), ('3', (-7, -6))):
@@ -714,6 +725,14 @@ class Energies(unittest.TestCase):
         data = with_snapshots(self.fall(**changed, contact_work=np.append(np.nan, works)), *map(shot, (0, 10, 20)))
         self.assertLess(energy.largest_defect(data), 1e-12)
         self.assertAlmostEqual(energy.budget(data).splitting[-1], -0.8 * gravity * 0.05 * speed[-1])
+        # Between snapshots their fall is not known: here it is no line.
+        speed = (step * n)**2
+        changed = dict(kinetic_energy=0.5 * speed**2, mean_velocity_y=0 * speed,
+                       potential_energy=5.0 - 0.8 * gravity * np.cumsum(speed) * step)
+        works = 0.5 * np.diff(speed**2) - 0.8 * gravity * step * 0.5 * (speed[1:] + speed[:-1])
+        data = with_snapshots(self.fall(**changed, contact_work=np.append(np.nan, works)), *map(shot, (0, 10, 20)))
+        self.assertLess(energy.largest_defect(data), 1e-12)
+        self.assertEqual(energy.budget(data).known.nonzero()[0].tolist(), [0, 10, 20])
 
     def test_an_empty_box_is_no_snapshot_of_the_fall(self):
         shots = [snapshot([[0, 9]], [[0, -1]]), snapshot(np.empty((0, 2)), np.empty((0, 2)), time=2.0)]

@@ -125,6 +125,15 @@ class Works(unittest.TestCase):
         self.assertIn('lose 1 m u_c² of potential energy each (mean): 10 % is their motion, 20 % went to contacts, '
                       '70 % to the liquid.', energy.caption(data, energy.budget(data)))
 
+    def test_grains_that_begin_with_a_velocity_spend_it_too(self):
+        data = run({'time.step': '0.1'}, time=[0, 1], grains=[7, 7], kinetic_energy=[4, 1], potential_energy=[5, 4],
+                   contact_work=[np.nan, 0.0], fluid_work=[np.nan, -4], mean_velocity_y=[0, 0])
+        measure = {one.name: one.measure for one in MEASURED}
+        self.assertEqual(str(measure['to_contacts'](data)), '0.0')
+        self.assertAlmostEqual(measure['to_fluid'](data), 1.0)
+        self.assertIn('lose 1 m u_c² of potential energy each (mean), and 3 m u_c² of kinetic energy: 0 % went to contacts, '
+                      '100 % to the liquid.', energy.caption(data, energy.budget(data)))
+
 
 class Columns(unittest.TestCase):
     def test_every_column_is_the_number_that_it_names(self):
@@ -140,7 +149,7 @@ class Columns(unittest.TestCase):
                                              np.repeat([0.005, 0.05, 0.5], 8), None))
         share = np.array([1.0, 0.3, 0.8])
         put('weight_balance.carriers', weight_balance.Carriers(np.arange(3.0), share, *(3 * [0 * share]),
-                                                              np.array([0, 0.5, 0.15])))
+                                                              np.array([0, 0.5, 0.15]), share))
         found = {one.name: one.measure(data) for one in MEASURED}
         expected = {'peak_velocity': 1.0, 'peak_time': 2.0, 'run_out': 1.5, 'heap_height': 3.0, 'heap_slope': 30.0,
                     'slip_angle': 45.0, 'quiescent_share': 0.25, 'pore_change': 0.02, 'pore_extreme': 0.04,

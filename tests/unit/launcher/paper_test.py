@@ -126,7 +126,7 @@ def closed(back=-0.1, front=2.0):
 def balanced(energy_left=1e-5, grains=1e-12, fluid=1e-9):
     none = np.zeros(2)
     return [made('other', {}, found={'analysis.energy.budget': energy.Budget(
-        none, np.array([0.0, 1.0 + energy_left]), np.array([0.0, -1.0]), none, none, none)},
+        none, np.array([0.0, 1.0 + energy_left]), np.array([0.0, -1.0]), none, none, none, np.ones(2, bool))},
         maxima={'grain_balance': grains, 'fluid_balance': fluid})]
 
 
