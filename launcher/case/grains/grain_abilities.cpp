@@ -283,8 +283,8 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings, const GrainForms
 }
 
 // Sides of a box in which a round grain has the added mass that it has by itself or beside a wall.
-constexpr double wide = 8.0;  // diameters
-constexpr double lightest_alone = 0.35;
+constexpr double wide = 6.0;  // diameters
+constexpr double lightest_alone = 0.36;
 
 bool is_alone(const Settings& settings, const Packing& grains, const GrainForms& forms) {
     if (grains.size() != 1 || !forms.forms[grains[0].shape].outline.empty()) return false;
