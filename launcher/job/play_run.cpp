@@ -104,6 +104,8 @@ JobOutcome play(const PreparedRun& prepared, const Programs& programs) {
     const PipesMayBreak until_reported;
     std::fflush(nullptr);
     ::setenv("TURBIDITE_PROGRESS", rewrites_lines() ? "terminal" : "plain", 1);
+    // YADE does not start without one, as in containers and units of systemd.
+    ::setenv("HOME", folder.root.c_str(), 0);
     const JobEnd end = run_job({.arguments = under_lock(prepared.line),
                                 .error_log = folder.log("mpirun"),
                                 .request_stop = [&](int s) { return request_stop(folder, s); },

@@ -47,6 +47,14 @@ TEST_F(Hosts, TrianglesFallTheSameInYadeAndAlone) {
     EXPECT_EQ(in_yade, alone);
 }
 
+// As in containers and units of systemd.
+TEST_F(Hosts, YadeStartsWithoutAHome) {
+    scratch.write("case.yaml", triangles);
+    const Answer answer = shell("env -u HOME " + program +
+                                " run case.yaml --set grains.adapter=yade-nscd --set time.end=0.1");
+    EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+}
+
 // One plate at rest, one that rotates about its middle.
 TEST_F(Hosts, PlatesInsideTheBoxActTheSame) {
     scratch.write("walls.csv",

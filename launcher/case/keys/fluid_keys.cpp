@@ -305,13 +305,58 @@ void tell_weak_rebounds(const Settings& s, std::vector<std::string>& notes) {
 // a sphere 23 % at 1.1 (docs/validation.md, docs/spheres-in-liquid.md).
 constexpr double leaks_from = 0.2;
 
+// nu dt/h2 from which a single correction of viscosity leaves a part of it: a steady flow is 2 to 6
+// % off and unsteady at 64, 4 to 19 % at 128, up to 95 % at 1280.
+constexpr double too_viscous = 10.0;
+
+/// nu dt/h2; none without a Reynolds number.
+std::optional<double> diffused_in_a_window(const Settings& s) {
+    const std::optional<double> reynolds = reynolds_of(s);
+    if (!reynolds) return std::nullopt;
+    const double cells = s.real("fluid.cells_per_diameter");
+    return s.real("time.step") * cells * cells / *reynolds;
+}
+
+/// A correction that is not iterated.
+void tell_missing_viscosity(const Settings& s, std::vector<std::string>& notes) {
+    if (!s.flag("fluid.enabled")) return;
+    const Splitting& splitting = splitting_of(s);
+    const double diffused = diffused_in_a_window(s).value_or(0.0);
+    if (!splitting.rigid_grains || splitting.iterated || diffused <= too_viscous) return;
+    notes.push_back(
+        fmt::format("fluid.splitting = {}: nu dt/h2 = time.step cells^2/Re = {:.2g} is more than "
+                    "one correction "
+                    "of viscosity can do, and flow is too fast and unsteady, by some 5 % at 60 and "
+                    "20 % at 130; "
+                    "use time.step <= {:.2g}, or {}",
+                    s.text("fluid.splitting"), diffused,
+                    s.real("time.step") * too_viscous / diffused, iterated_splitting()));
+}
+
+// Of pressure, over rho_f u_c^2: what probes and pictures begin to show.
+constexpr double noise = 0.1;
+
+/// An error of pressure whose divergence is below the tolerance: the longest wave of the box, k =
+/// pi/L, has k^2 p dt/rho_f.
+void tell_noise_of_pressure(const Settings& s, std::vector<std::string>& notes) {
+    if (!s.flag("fluid.enabled") || !splitting_of(s).iterated) return;
+    const auto size = real_list("domain.size", s.text("domain.size"));
+    const double longest = *std::max_element(size.begin(), size.end()) / M_PI;
+    const double tolerance = s.real("fluid.splitting_tolerance");
+    const double error = tolerance * longest * longest / s.real("time.step");
+    if (error <= noise) return;
+    notes.push_back(fmt::format(
+        "fluid.splitting_tolerance = {:.2g}: pressure may be off by up to tolerance "
+        "(L/pi)^2/time.step "
+        "= {:.2g} rho_f u_c2, otherwise in every window (forces on grains hardly feel it); for "
+        "pictures and probes of p use fluid.splitting_tolerance <= {:.1g}",
+        tolerance, error, tolerance * noise / error));
+}
+
 /// Without a correction with rigid grains, liquid leaks through them in viscous windows.
 void tell_leakage(const Settings& s, std::vector<std::string>& notes) {
     if (!s.flag("fluid.enabled") || splitting_of(s).rigid_grains) return;
-    const std::optional<double> reynolds = reynolds_of(s);
-    if (!reynolds) return;
-    const double cells = s.real("fluid.cells_per_diameter");
-    const double diffused = s.real("time.step") * cells * cells / *reynolds;
+    const double diffused = diffused_in_a_window(s).value_or(0.0);
     if (diffused <= leaks_from) return;
     notes.push_back(fmt::format(
         "fluid.splitting = {}: with nu dt/h2 = time.step cells^2/Re = {:.2g} liquid leaks through "
@@ -323,6 +368,8 @@ void tell_leakage(const Settings& s, std::vector<std::string>& notes) {
 void fluid_notes(const Settings& s, std::vector<std::string>& notes) {
     tell_closed_contacts(s, notes);
     tell_leakage(s, notes);
+    tell_missing_viscosity(s, notes);
+    tell_noise_of_pressure(s, notes);
     tell_weak_rebounds(s, notes);
     const std::string& scheme = s.text("fluid.transport_scheme");
     if (const auto limit = step_limit_exceeded(s, SchemeKind::central, highest_peak))
@@ -475,7 +522,8 @@ std::vector<KeySpec> multiplier_keys() {
                   .range = {.lower = 0.0, .upper = 1.0},
                   .help = "how far the fluid sees the surface of a grain outside of it: a "
                           "calibration, since cells whose centres lie inside a sphere are a sphere "
-                          "that is a little too small",
+                          "that is a little too small; right while U h/nu is below 3, too large "
+                          "above 6",
                   .idle = without_fluid}),
         {.name = "fluid.point_spacing",
          .type = KeyType::real,

@@ -332,6 +332,32 @@ TEST(TransformLength, GoodOnesHaveSmallFactors) {
     EXPECT_EQ(good_transform_length(192), 192);
 }
 
+// nu dt/h2 = 0.01 16^2/0.1 = 25.6
+TEST_F(FluidLimits, WhatOneCorrectionOfViscosityCannotDoIsTold) {
+    const auto notes = [&](const char* reynolds, const char* splitting) {
+        return notes_of(load("", {std::string("fluid.reynolds=") + reynolds,
+                                  std::string("fluid.splitting=") + splitting, "time.step=0.01",
+                                  "fluid.cells_per_diameter=16", "coupling.scheme=joint"}));
+    };
+    EXPECT_SAYS(notes("0.1", "explicit-multiplier"), "= 26 is more than one correction");
+    EXPECT_SAYS(notes("0.1", "explicit-multiplier"), "use time.step <= 0.0039");
+    EXPECT_EQ(notes("0.3", "explicit-multiplier").find("one correction"), std::string::npos);
+    EXPECT_EQ(notes("0.1", "implicit-multiplier").find("one correction"), std::string::npos);
+}
+
+// (24 D/pi)^2 = 58.4 D2
+TEST_F(FluidLimits, PressureThatTheToleranceLeavesOpenIsTold) {
+    const auto notes = [&](const char* tolerance, const char* splitting = "implicit-multiplier") {
+        return notes_of(load("", {std::string("fluid.splitting_tolerance=") + tolerance,
+                                  std::string("fluid.splitting=") + splitting, "time.step=0.01",
+                                  "domain.size=[12, 24]", "coupling.scheme=joint"}));
+    };
+    EXPECT_SAYS(notes("1e-3"), "= 5.8 rho_f u_c2");
+    EXPECT_SAYS(notes("1e-3"), "use fluid.splitting_tolerance <= 2e-05");
+    EXPECT_EQ(notes("1e-5").find("pressure may be off"), std::string::npos);
+    EXPECT_EQ(notes("1e-3", "explicit-multiplier").find("pressure may be off"), std::string::npos);
+}
+
 // 107 = prime; along y there is no transform.
 TEST_F(FluidLimits, SlowTransformsAreToldWithTheNextGoodLength) {
     const auto notes = [&](const char* size, const char* more = "time.end=1") {
