@@ -46,11 +46,13 @@ ContactRecord record_of(const nscd::Engine& engine, std::size_t k) {
         record.status |= ContactStatus::film;
     record.gap = point.gap;
     record.length = point.length;
-    record.point = bodies.position[point.b] + point.arm_b;
+    // What acts across a gap, a film or an attraction, begins at the surface of a wall.
+    const Vec3 to_wall = std::max(point.gap, 0.0) * point.normal;
+    const Vec3 arm_b = point.wall >= 0 ? point.arm_b - to_wall : point.arm_b;
+    record.point = bodies.position[point.b] + arm_b;
     record.normal = point.normal;
     // Both arms end at the same point: x_b - x_a = arm_a - arm_b, of the nearest image.
-    // At a wall from its surface, which a film or an attraction holds a gap away from arm_b.
-    record.branch = (point.wall >= 0 ? point.gap * point.normal : point.arm_a) - point.arm_b;
+    record.branch = (point.wall >= 0 ? Vec3{} : point.arm_a) - arm_b;
     record.impulse = world_impulse(contact, impulse);
     record.rolling_impulse = world_moment(engine.impulses(), k);
     return record;

@@ -147,8 +147,7 @@ ContactRecord SoftMdHost::record(const Overlap& overlap, const PointForce& force
     record.length = point.length;
     record.point = bodies_.position[point.b] + point.arm_b;
     record.normal = point.normal;
-    // At a wall from its surface.
-    record.branch = (point.wall >= 0 ? point.gap * point.normal : point.arm_a) - point.arm_b;
+    record.branch = (point.wall >= 0 ? Vec3{} : point.arm_a) - point.arm_b;
     record.impulse = window * force.on_b;
     return record;
 }

@@ -284,7 +284,11 @@ std::vector<GrainRule> rules_of_fluid(const Settings& settings, const GrainForms
 
 // Sides of a box in which a round grain has the added mass that it has by itself or beside a wall.
 constexpr double wide = 6.0;  // diameters
-constexpr double lightest_alone = 0.36;
+
+/// Of a disc, and of a sphere (C_a = 1/2, beside a wall 0.8), with a little to spare.
+double lightest_alone(const Settings& settings) {
+    return in_space(settings) ? 0.25 : 0.36;
+}
 
 bool is_alone(const Settings& settings, const Packing& grains, const GrainForms& forms) {
     if (grains.size() != 1 || !forms.forms[grains[0].shape].outline.empty()) return false;
@@ -301,20 +305,20 @@ bool is_alone(const Settings& settings, const Packing& grains, const GrainForms&
 std::vector<GrainRule> rules_of_splitting(const Settings& settings, const Packing& grains,
                                           const GrainForms& forms) {
     if (splitting_of(settings).rigid_grains) return {};
-    const double least = is_alone(settings, grains, forms) ? lightest_alone : 0.5;
+    const double alone = lightest_alone(settings);
+    const double least = is_alone(settings, grains, forms) ? alone : 0.5;
     const auto density = density_of_grains(settings);
     return {{[=](const PlacedGrain& g) {
                  return !g.prescribed && density(g) < least * displaced_volume(settings, g.radius);
              },
              [density](const PlacedGrain& g) { return fmt::format("density = {}", density(g)); },
-             fmt::format(
-                 "With fluid.splitting: {} the velocity of a grain as light as this grows "
-                 "from window to window, whatever their length: a density of at least {} "
-                 "times that of the fluid it displaces{}.",
-                 settings.text("fluid.splitting"), least,
-                 least > lightest_alone
-                     ? fmt::format(" ({} for a single round grain in a wide box)", lightest_alone)
-                     : ""),
+             fmt::format("With fluid.splitting: {} the velocity of a grain as light as this grows "
+                         "from window to window, whatever their length: a density of at least {} "
+                         "times that of the fluid it displaces{}.",
+                         settings.text("fluid.splitting"), least,
+                         least > alone
+                             ? fmt::format(" ({} for a single round grain in a wide box)", alone)
+                             : ""),
              "Use fluid.splitting: explicit-multiplier."}};
 }
 

@@ -221,8 +221,10 @@ KeyGroup grains_keys() {
                      "A ratio above 0. In a fluid without coupling.scheme: joint above 1, in space "
                      "above (R_h/R)^5, 1.44 at D/8; with joint in space above 15/c^2, c cells "
                      "across, and more with fluid.surface_shift above 0.3; with fluid.splitting: "
-                     "marchuk-yanenko at least 0.5 V(R_h)/V(R), 0.36 for a single round grain in a "
-                     "box of 6 diameters; with joint in the plane at least 21/c^2, at most 0.5.",
+                     "marchuk-yanenko at least 0.5 V(R_h)/V(R), 0.36 for a single disc and 0.25 "
+                     "for a "
+                     "single sphere in a box of 6 diameters; with joint in the plane at least "
+                     "21/c^2, at most 0.5.",
                  .remedy = "Use for example 1.5."},
                 {.name = "grains.generator",
                  .type = KeyType::choice,
