@@ -29,6 +29,11 @@ def rest_time(run):
     return time[first] if first < len(time) else None
 
 
+def has_moved(run):
+    speed = run.column('mean_speed')[1]
+    return len(speed) == 0 or speed.max() > 0.0
+
+
 def mean_rest_time(runs):
     """Mean of rest_time over some runs [t_c]; None unless all come to rest."""
     times = [rest_time(run) for run in runs]

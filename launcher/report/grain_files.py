@@ -84,6 +84,13 @@ def first_grains(run):
     return or_remark(run, 'The first output', lambda: read_grains(*first[0])) if first else None
 
 
+@once_per_run
+def last_grains(run):
+    """The same of the last output."""
+    last = quiet_series(run)[-1:]
+    return or_remark(run, 'The last output', lambda: read_grains(*last[0])) if last else None
+
+
 def grains_at(run, time):
     """The grains of the output at a time of another series; None without one."""
     near = [output for output in quiet_series(run) if abs(output[0] - time) <= 1e-6 * abs(time)]

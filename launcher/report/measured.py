@@ -160,6 +160,6 @@ def so_far(one, runs, values):
 
 def may_change(one, run):
     if one.name in UNTIL_REST:
-        return findings.rest_time(run) is None
+        return findings.rest_time(run) is None and findings.has_moved(run)
     found = peaks.peak(run) if one.name in OF_PEAKS else None
     return found is not None and found.time >= run.history['time'][-1]

@@ -83,12 +83,8 @@ class RunData:
 
     def front_is_free(self):
         """Whether the front of the history, of all grains, is that of those whose motion is not prescribed: in the first
-        output no held grain is farther to the right."""
-        grains, extent = grain_files.first_grains(self), first_extent(self)
-        if grains is None or grains.prescribed is None or extent is None:
-            return True
-        reaches = grains.centres[:, 0] + grains.radii
-        return reaches.max() / self.scale('D') <= extent[1][0] + SAME_FRONT
+        and in the last output no held grain is farther to the right."""
+        return all(leads(self, grains) for grains in (grain_files.first_grains(self), grain_files.last_grains(self)))
 
     def has_cyclic_floor(self):
         """What leaves at the bottom comes in at the top."""
@@ -164,10 +160,22 @@ def free_at_first(run):
     return len(grains.free().radii), None if extent is None else float(extent[1][0])
 
 
+def leads(run, grains):
+    """Whether the foremost of these grains is free, or there is none."""
+    extent = extent_of(run, grains)
+    if extent is None or grains.prescribed is None:
+        return True
+    reaches = grains.centres[:, 0] + grains.radii
+    return reaches.max() / run.scale('D') <= extent[1][0] + SAME_FRONT
+
+
 def first_extent(run):
-    """(low, high), in D, of the box around the grains whose motion is not prescribed, in the first output; None without
-    such grains or without a file of them."""
-    grains = grain_files.first_grains(run)
+    """That of the first output."""
+    return extent_of(run, grain_files.first_grains(run))
+
+
+def extent_of(run, grains):
+    """(low, high), in D, of the box around those of these grains whose motion is not prescribed; None without any."""
     free = None if grains is None else grains.free()
     if free is None or not len(free.radii):
         return None

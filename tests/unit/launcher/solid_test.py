@@ -82,6 +82,21 @@ class InTheLiquid(unittest.TestCase):
                                0.5 * 4 / 3 * np.pi * 0.4**3 * (25 + 0.4 * 0.4**2 * 25))
 
 
+class Front(unittest.TestCase):
+    def outputs(self, *free_at):
+        """Of a free grain at these places, beside one that is held at x = 7."""
+        data = run()
+        for name, x in zip(('first', 'last'), free_at):
+            there = Grains(0.0, np.array([[x, 1.0], [7.0, 1.0]]), np.array([0.5, 0.5]), prescribed=np.array([False, True]))
+            data.measured[f'grain_files.{name}_grains'] = there
+        return data
+
+    def test_a_held_grain_is_no_front(self):
+        self.assertTrue(self.outputs(7.5, 8.0).front_is_free())
+        self.assertFalse(self.outputs(3.0, 8.0).front_is_free())
+        self.assertFalse(self.outputs(7.9, 5.0).front_is_free())
+
+
 class WrittenGrains(RunFolderTest):
     """Grains of densities 2 and 4, of which the heavy one leaves; density_ratio of the case is 1.5."""
 
