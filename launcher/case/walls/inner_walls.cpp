@@ -71,6 +71,8 @@ InnerWall wall_of(CsvTable& table, const CsvTable::Row& row) {
             wall.motion = text;
             continue;
         }
+        // An empty field has what a file without the column has.
+        if (text.empty() && (column == "friction" || column == "thickness")) continue;
         const auto number = finite_number(table, row.line, column, text, "Give a number.");
         *number_of(wall, column) = number.value_or(0.0);
     }
@@ -266,7 +268,7 @@ InnerWalls read_walls_csv(const std::filesystem::path& file) {
 }
 
 std::string walls_csv(const std::vector<InnerWall>& walls) {
-    const bool with_friction = std::all_of(walls.begin(), walls.end(),
+    const bool with_friction = std::any_of(walls.begin(), walls.end(),
                                            [](const InnerWall& w) { return bool(w.friction); });
     std::string text = "id,x1,y1,x2,y2,thickness,vx,vy,spin,px,py";
     const bool with_motion = std::any_of(walls.begin(), walls.end(),
@@ -278,7 +280,7 @@ std::string walls_csv(const std::vector<InnerWall>& walls) {
         text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", wall.id, wall.from[0], wall.from[1],
                             wall.to[0], wall.to[1], wall.thickness, wall.velocity[0],
                             wall.velocity[1], wall.spin, pivot[0], pivot[1]);
-        if (with_friction) text += fmt::format(",{}", *wall.friction);
+        if (with_friction) text += wall.friction ? fmt::format(",{}", *wall.friction) : ",";
         text += with_motion ? "," + wall.motion + "\n" : "\n";
     }
     return text;

@@ -199,6 +199,20 @@ TEST_F(WallsFile, IsHandedOnInTheRunsUnits) {
     EXPECT_EQ(again.settings.entries(), box.settings.entries());
 }
 
+// One with a friction of its own, one with that of the case.
+TEST_F(WallsFile, AnEmptyFieldHasWhatAFileWithoutTheColumnHas) {
+    folder.write("grains.csv", "id,x,y\n0,3,20\n");
+    folder.write("walls.csv",
+                 "id,x1,y1,x2,y2,thickness,friction\n1,0,5,8,5,,0.7\n7,2,9,4,9,0.3,\n");
+    const ResolvedCase box = load("grains: {file: grains.csv, adapter: standalone-nscd}\n",
+                                  {"domain.walls_file=walls.csv", "contact.friction=0.4"});
+    EXPECT_EQ(box.settings.text("run.walls"),
+              "1 0 5 8 5 0 0 0 4 5 0.7 0;7 2 9 4 9 0 0 0 3 9 0.4 0.3");
+    write_run(box);
+    const ResolvedCase again = load_run_folder(folder.path() / "run");
+    EXPECT_EQ(again.settings.entries(), box.settings.entries());
+}
+
 TEST_F(WallsFile, NonsenseIsRefusedByLine) {
     EXPECT_SAYS(refused("id,x1,y1,x2,y2\n1,3,3,3,3\n"), "walls.csv line 2: wall 1 has length 0");
     EXPECT_SAYS(refused("id,x1,y1,x2,y2\n1,3,3,4,3\n1,5,5,6,6\n"), "wall id 1 is given twice");
