@@ -213,9 +213,10 @@ void FluidWindow::forget_jump() {
 }
 
 bool FluidWindow::begins_without_pressure(const CoupledStep& coupled) const {
+    if (ledger_.began_at_rest()) return true;
     double has_one = coupled.begins_without_pressure() ? 0.0 : 1.0;
     store_.ranks().max(&has_one, 1);
-    return ledger_.began_at_rest() || has_one == 0.0;
+    return has_one == 0.0;
 }
 
 /// Pressure and viscosity of the fluid with these grains, where the splitting corrects them.

@@ -560,6 +560,7 @@ StepReport Engine::hand_out(SolverResult result, double dt) {
 /// What films carry, and how fast their surfaces approached each other.
 void Engine::look_at_films(const Impulses& found, const std::vector<Twist>& velocities) {
     contacts_.approach.clear();
+    if (!laws_.law().has(LawSlot::film)) return;
     // By all ranks or none: the operator asks them all.
     if (!on_any_rank(contacts_.problem, !contacts_.problem.films.empty())) return;
     contacts_.pressing = carried_by_contacts(contacts_.problem, found, velocities);

@@ -92,7 +92,6 @@ double largest_sinking(const ContactProblem& problem, const Impulses& r,
 Impulses carried_by_contacts(const ContactProblem& problem, const Impulses& r,
                              const std::vector<Twist>& v) {
     Impulses carried = r;
-    if (!on_any_rank(problem, !problem.films.empty())) return carried;
     with_operator(problem, [&](const auto& w) {
         for (std::size_t k = 0; k < r.size(); ++k) {
             const Contact& contact = problem.contacts[k];

@@ -52,8 +52,8 @@ double largest_sinking(const ContactProblem& problem, const Impulses& r,
 /// r without the parts that films carry: what presses on surfaces, which friction sees. Of an exact
 /// update of each contact alone, so that the normal part and those that it limits belong together:
 /// that of r, less the film's at these velocities, differs by the tolerance of the solver, and a
-/// contact that slides would be inside its cone as often as beyond. `v`: body_velocities(problem,
-/// r) [N s].
+/// contact that slides would be inside its cone as often as beyond. By every rank, if one has
+/// films. `v`: body_velocities(problem, r) [N s].
 Impulses carried_by_contacts(const ContactProblem& problem, const Impulses& r,
                              const std::vector<Twist>& v);
 

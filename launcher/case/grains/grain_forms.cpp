@@ -114,14 +114,13 @@ double least_width(const PlacedGrain& grain, const GrainForms& forms) {
 double mean_diameter(const PlacedGrain& grain, const GrainForms& forms) {
     const auto& outline = forms.forms[static_cast<std::size_t>(grain.shape)].outline;
     if (outline.empty()) return 2.0 * grain.radius;
-    double twice_area = 0.0, circumference = 0.0;
+    double circumference = 0.0;
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const auto [x, y] = outline[k];
         const auto [next_x, next_y] = outline[(k + 1) % outline.size()];
-        twice_area += x * next_y - y * next_x;
         circumference += std::hypot(next_x - x, next_y - y);
     }
-    return grain.radius * 2.0 * twice_area / circumference;
+    return grain.radius * 4.0 * area_moments(outline).area / circumference;
 }
 
 ShapeTable used_shapes(Packing& grains, const GrainForms& forms) {

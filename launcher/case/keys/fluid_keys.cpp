@@ -323,14 +323,12 @@ void tell_missing_viscosity(const Settings& s, std::vector<std::string>& notes) 
     const Splitting& splitting = splitting_of(s);
     const double diffused = diffused_in_a_window(s).value_or(0.0);
     if (!splitting.rigid_grains || splitting.iterated || diffused <= too_viscous) return;
-    notes.push_back(
-        fmt::format("fluid.splitting = {}: nu dt/h2 = time.step cells^2/Re = {:.2g} is more than "
-                    "one correction "
-                    "of viscosity can do, and flow is too fast and unsteady, by some 5 % at 60 and "
-                    "20 % at 130; "
-                    "use time.step <= {:.2g}, or {}",
-                    s.text("fluid.splitting"), diffused,
-                    s.real("time.step") * too_viscous / diffused, iterated_splitting()));
+    notes.push_back(fmt::format(
+        "fluid.splitting = {}: nu dt/h2 = time.step cells^2/Re = {:.2g} is more than "
+        "one correction of viscosity can do, and flow is too fast and unsteady, by some "
+        "5 % at 60 and 20 % at 130; use time.step <= {:.2g}, or {}",
+        s.text("fluid.splitting"), diffused, s.real("time.step") * too_viscous / diffused,
+        iterated_splitting()));
 }
 
 // Of pressure, over rho_f u_c^2: what probes and pictures begin to show.
@@ -347,9 +345,8 @@ void tell_noise_of_pressure(const Settings& s, std::vector<std::string>& notes) 
     if (error <= noise) return;
     notes.push_back(fmt::format(
         "fluid.splitting_tolerance = {:.2g}: pressure may be off by up to tolerance "
-        "(L/pi)^2/time.step "
-        "= {:.2g} rho_f u_c2, otherwise in every window (forces on grains hardly feel it); for "
-        "pictures and probes of p use fluid.splitting_tolerance <= {:.1g}",
+        "(L/pi)^2/time.step = {:.2g} rho_f u_c2, otherwise in every window (forces on grains "
+        "hardly feel it); for pictures and probes of p use fluid.splitting_tolerance <= {:.1g}",
         tolerance, error, tolerance * noise / error));
 }
 
