@@ -147,8 +147,7 @@ int main_program(const std::string& directory, const std::string& set,
     std::raise(SIGTERM);
     return static_cast<int>(ExitCode::terminated);
 } catch (const std::exception& error) {
-    const auto* failure = dynamic_cast<const Failure*>(&error);
-    const ExitCode code = failure ? code_in_job(failure->code()) : ExitCode::participant_failed;
+    const ExitCode code = code_in_job(code_of(error));
     std::fprintf(stderr, "turbidite-coupler: %s\n", error.what());
     std::fflush(nullptr);
     record_failure(directory, code, error.what());

@@ -92,8 +92,7 @@ int main(int argc, char** argv) {
             std::ofstream(folder.root / "differences") << "see the output of turbidite replay\n";
         return 0;
     } catch (const std::exception& error) {
-        const auto* failure = dynamic_cast<const Failure*>(&error);
-        const ExitCode code = failure ? failure->code() : ExitCode::participant_failed;
+        const ExitCode code = code_of(error);
         std::fprintf(stderr, "turbidite-replay: %s\n", error.what());
         std::fflush(nullptr);
         record_end(folder, code, error.what());

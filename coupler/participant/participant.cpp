@@ -63,11 +63,6 @@ void require_run_folder(const std::string& folder) {
                       "the command line");
 }
 
-ExitCode code_of(const std::exception& error) {
-    const auto* failure = dynamic_cast<const Failure*>(&error);
-    return failure ? failure->code() : ExitCode::participant_failed;
-}
-
 MPI_Comm own_communicator(Role role, std::uintptr_t given) {
     // A host that has split the world already, as YADE's mpy does, gives its own communicator.
     if (given == 0) return split_world(role);

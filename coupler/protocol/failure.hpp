@@ -3,6 +3,7 @@
 /// Exit codes of the job, and errors that carry one. Valid C++17.
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -35,6 +36,12 @@ class Failure : public std::runtime_error {
  private:
     ExitCode code_;
 };
+
+/// The exit code that a program ends with when `error` does.
+inline ExitCode code_of(const std::exception& error) {
+    const auto* failure = dynamic_cast<const Failure*>(&error);
+    return failure ? failure->code() : ExitCode::participant_failed;
+}
 
 /// An unphysical state (NaN, a grain outside a wall, a failed projection): exit code 6.
 class PhysicsRefused : public Failure {

@@ -211,7 +211,7 @@ class LeftAlone {
     int seconds_ = 0;
 };
 
-int code_of(int status) {
+int exit_status(int status) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -242,7 +242,7 @@ JobEnd watch(pid_t child, const JobOrder& order, const BlockedSignals& signals) 
     kill_session(child);  // a killed mpirun leaves its ranks behind
     int status = 0;
     waitpid(child, &status, 0);
-    end.status = code_of(status);
+    end.status = exit_status(status);
     end.crashed = WIFSIGNALED(status) && !end.killed && !end.overdue && !left;
     return end;
 }

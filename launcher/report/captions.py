@@ -152,7 +152,7 @@ def packing(run):
         text.append(f'Pores from {pores[0]:.4g} {run.solid_unit()} to {end:.4g} {run.solid_unit()} '
                     f'({100 * (end / pores[0] - 1):+.3g} %).')
     sliding = run.end('sliding_share')
-    if sliding is not None:
+    if sliding is not None and run.has_friction():
         text.append(f'Sliding contacts at the end: {100 * sliding:.3g} %.')
     return ' '.join(text)
 

@@ -111,6 +111,12 @@ class RunData:
         one's own."""
         return len(self.column('contact_iterations')[1]) > 0 and len(self.column('contact_residual')[1]) == 0
 
+    def has_friction(self):
+        """Of one material or pair at least: without any, all contacts are at the limit, which says nothing."""
+        found = [float(value) for key, value in self.case.items()
+                 if key.startswith('contact.') and key.split('.')[-1] == 'friction']
+        return not found or max(found) > 0.0
+
     def command(self):
         """The command that made the run; empty for versions that did not record it."""
         if not self.record.get('case_file'):

@@ -37,7 +37,9 @@ class Lattice {
             count_[axis] = std::max<std::int64_t>(1, std::llround(length / edge));
             // A whole number of voxels is the period; D/8 elsewhere.
             edge_[axis] = periodic_[axis] ? length / static_cast<double>(count_[axis]) : edge;
-            origin_[axis] = periodic_[axis] ? 0.0 : low - margin;
+            // Around the middle of the balls: their mirror image has the same pores.
+            const double covered = edge * static_cast<double>(count_[axis]);
+            origin_[axis] = periodic_[axis] ? 0.0 : 0.5 * (low + high - covered);
         }
         across_ = diameter / edge_[0];
     }

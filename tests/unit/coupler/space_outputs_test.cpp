@@ -153,6 +153,18 @@ TEST(PoreVoxels, HowTheBoxIsCutChangesNothing) {
     }
 }
 
+TEST(PoreVoxels, AMirrorImageHasTheSame) {
+    const std::vector<SolidBall> balls{
+        {{0, 0, 0}, 0.5}, {{0.93, 0.31, 0.1}, 0.47}, {{0.41, 0.87, 0.37}, 0.53}};
+    const double pores = pore_volume(balls, 1.0, {});
+    EXPECT_GT(pores, 0.1);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::vector<SolidBall> image = balls;
+        for (SolidBall& ball : image) ball.centre[axis] *= -1.0;
+        EXPECT_EQ(pore_volume(image, 1.0, {}), pores) << axis;
+    }
+}
+
 TEST(PoreVoxels, OfGrainsThatAreFarApartAreThoseOfEach) {
     // 5e14 voxels in one piece
     std::vector<SolidBall> balls;

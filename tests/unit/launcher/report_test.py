@@ -371,6 +371,8 @@ class Report(RunFolderTest):
         page = self.make()
         self.assertIn(typeset('Pores from 2 D^2 to 2.5 D^2 (+25 %). Sliding contacts at the end: 25 %.'), page)
         self.assertIn('packing-coordination.png', self.pictures())
+        self.write('case.yaml', (self.folder / 'case.yaml').read_text() + 'contact:\n  friction: 0\n')
+        self.assertNotIn('Sliding contacts', self.make())  # there is no limit to be at
 
     def test_rest_is_when_the_speed_stays_small(self):
         self.write('history.csv', 'step,time,mean_speed\n0,0,0\n1,1,1\n2,2,0.005\n3,3,0.02\n'
